@@ -1,0 +1,28 @@
+// The whole compiler: a plan file in, an A-Graph and diagnostics out.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "compiler/diagnostics/diagnostic.h"
+#include "schema/agraph.h"
+
+namespace plumb::compiler {
+
+struct CompileOptions {
+  double section_height_m = 1.1;    // walls are cut here above the storey's zero to get their footprints
+  double snap_radius_m = 0.002;     // vertices of the planar map closer than this become one
+  double min_room_area_m2 = 0.5;    // smaller faces between walls are shafts or gaps, not rooms
+  // Empty if every field is valid; else names the field, its value and the rule.
+  [[nodiscard]] std::string Check() const;
+};
+
+struct CompileResult {
+  std::optional<AGraph> graph;  // none: the plan was not usable, and an error among the diagnostics says why
+  DiagnosticSink diagnostics;
+};
+
+// Reads and compiles the plan at `path`. Never throws. Same file and options, same graph.
+[[nodiscard]] CompileResult Compile(const std::string& path, const CompileOptions& options = {});
+
+}  // namespace plumb::compiler

@@ -1,0 +1,62 @@
+// Diagnostics: what the compiler has to say about its input. Every kind has a stable code, declared in diagnostic_kinds.def.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "schema/agraph.h"
+
+namespace plumb::compiler {
+
+// Where in the source. Fields that a format does not have stay empty or 0.
+struct SourceLocation {
+  uint32_t line = 0;      // 1-based line in a text file
+  uint64_t step_id = 0;   // 123 for #123 (STEP)
+  std::string guid;       // IfcGloballyUniqueId, DXF handle, mesh object name
+  std::string type;       // IfcWallStandardCase, LWPOLYLINE, ...
+
+  [[nodiscard]] std::string ToString() const;  // "#123 IfcDoor 2O2Fr$t4X7Zf8NOew3FLOH (line 991)"
+};
+
+enum class DiagnosticKind : uint16_t {
+#define PLUMB_DIAGNOSTIC(code, name, severity, rule) k##name = code,
+#include "compiler/diagnostics/diagnostic_kinds.def"
+#undef PLUMB_DIAGNOSTIC
+};
+
+struct Diagnostic {
+  DiagnosticKind kind{};
+  Severity severity = Severity::kWarning;
+  SourceLocation location;
+  std::string message;  // lower case, no full stop: the observed fact first, then the rule with its threshold and unit
+  std::string hint;     // at most one; may be empty
+};
+
+// Collects diagnostics in the order of emission. Severity comes from the kind.
+class DiagnosticSink {
+ public:
+  void Emit(DiagnosticKind kind, SourceLocation location, std::string message, std::string hint = {});
+
+  [[nodiscard]] const std::vector<Diagnostic>& all() const { return diagnostics_; }
+  [[nodiscard]] size_t Count(Severity severity) const;
+  [[nodiscard]] bool has_errors() const { return Count(Severity::kError) > 0; }
+  // Per code, sorted by code: what goes into the file.
+  [[nodiscard]] std::vector<DiagnosticCount> Summary() const;
+
+ private:
+  std::vector<Diagnostic> diagnostics_;
+};
+
+[[nodiscard]] std::string CodeOf(DiagnosticKind kind);          // "PL2103"
+[[nodiscard]] std::string_view NameOf(DiagnosticKind kind);     // "WallWithoutBody"
+[[nodiscard]] std::string_view RuleOf(DiagnosticKind kind);     // the rule that is broken, one sentence
+[[nodiscard]] Severity SeverityOf(DiagnosticKind kind);
+
+// One line each, then a closing count: `plan.ifc:991: warning: door `#123` has no host wall ... [PL2110]`. Sorted by line, then code.
+// At most `max_per_kind` of a kind, then "and 41 more".
+[[nodiscard]] std::string DiagnosticsToText(const std::vector<Diagnostic>& diagnostics, const std::string& source_path, size_t max_per_kind = 3);
+[[nodiscard]] std::string DiagnosticsToJson(const std::vector<Diagnostic>& diagnostics, const std::string& source_path);
+
+}  // namespace plumb::compiler

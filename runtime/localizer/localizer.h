@@ -1,0 +1,68 @@
+// The whole runtime behind one class: scans in, a verdict and a pose on every scan, deviations at any time.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "runtime/coupling/coupling.h"
+#include "runtime/deviations/deviations.h"
+#include "runtime/mapping/mapper.h"
+#include "runtime/matching/matcher.h"
+#include "runtime/odometry/odometry.h"
+#include "runtime/optimization/joint_optimizer.h"
+
+namespace plumb::runtime {
+
+enum class Verdict : uint8_t { kSearching, kAmbiguous, kLocalized, kLost };
+[[nodiscard]] const char* VerdictName(Verdict verdict);  // searching | ambiguous | localized | lost
+
+struct LocalizerOptions {
+  OdometryOptions odometry;
+  MapperOptions mapper;
+  MatcherOptions matcher;
+  CouplingOptions coupling;
+  JointOptions joint;
+  DeviationOptions deviations;
+  [[nodiscard]] std::string Check() const;
+};
+
+struct StageTime {
+  std::string stage;  // odometry, mapping, matching, optimization
+  double ms = 0;
+};
+
+struct ScanVerdict {
+  double stamp_s = 0;
+  Verdict verdict = Verdict::kSearching;
+  int hypotheses = 0;
+  std::optional<Eigen::Isometry3d> T_plan_lidar;  // when localized
+  std::vector<StageTime> timing;
+};
+
+class Localizer {
+ public:
+  // `plan` must outlive it.
+  Localizer(const AGraph& plan, const LocalizerOptions& options = {});
+  ~Localizer();
+
+  // The next scan in time order. `given`: see Odometry::Register.
+  [[nodiscard]] ScanVerdict AddScan(const Scan& scan, const std::optional<Odometry::GivenMotion>& given);
+
+  // After the last scan (or whenever asked): a final solve over everything.
+  void Finish();
+
+  [[nodiscard]] const SGraph& map() const;
+  [[nodiscard]] const MatchResult& last_match() const;
+  [[nodiscard]] const JointResult& estimate() const;
+  [[nodiscard]] DeviationReport Deviations() const;
+  // All scans, plan frame, with all knowledge so far; empty before the first fix.
+  [[nodiscard]] Trajectory SmoothedTrajectory() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace plumb::runtime

@@ -1,0 +1,85 @@
+// The S-Graph: what the robot has seen. Keyframes and the wall surfaces, floors and ceilings observed from them, in the `map` frame
+// (odometry's start, gravity-aligned). Grows scan by scan; poses and planes are re-estimated by optimization/.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <vector>
+
+namespace plumb::runtime {
+
+// Sum of homogeneous outer products of points, sum [p;1][p;1]^T: all that point-to-plane residuals need (runtime/METHOD.md, pi-factor).
+struct PlaneStats {
+  Eigen::Matrix4d C = Eigen::Matrix4d::Zero();
+
+  void Add(const Eigen::Vector3d& p) {
+    const Eigen::Vector4d h = p.homogeneous();
+    C += h * h.transpose();
+  }
+  void Add(const PlaneStats& other) { C += other.C; }
+  [[nodiscard]] double count() const { return C(3, 3); }
+  [[nodiscard]] Eigen::Vector3d centroid() const { return C.block<3, 1>(0, 3) / C(3, 3); }
+  // Of the points moved by T.
+  [[nodiscard]] PlaneStats Transformed(const Eigen::Isometry3d& T) const {
+    return {T.matrix() * C * T.matrix().transpose()};
+  }
+};
+
+// Plane n . x + d = 0, n a unit vector into the free space (towards the sensor that saw it).
+struct Plane {
+  Eigen::Vector3d n = Eigen::Vector3d::UnitX();
+  double d = 0;
+  // The plane in frame a, given it in frame b.
+  [[nodiscard]] Plane Transformed(const Eigen::Isometry3d& T_a_b) const {
+    const Eigen::Vector3d n_a = T_a_b.linear() * n;
+    return {n_a, d - n_a.dot(T_a_b.translation())};
+  }
+  [[nodiscard]] double SignedDistance(const Eigen::Vector3d& p) const { return n.dot(p) + d; }
+};
+
+enum class SurfaceKind : uint8_t { kWall, kFloor, kCeiling };
+
+// A planar patch seen from one keyframe, in the keyframe's frame.
+struct Segment {
+  SurfaceKind kind = SurfaceKind::kWall;
+  Plane plane;
+  PlaneStats stats;
+  // In-plane bounds about the plane's foot of the centroid: u is horizontal (z x n) for walls, x for floors; v completes (u, v, n).
+  std::vector<Eigen::Vector3f> points;  // inliers (kept only until the segment is in the map)
+};
+
+struct Observation {
+  uint32_t keyframe = 0;
+  PlaneStats stats;  // keyframe frame
+};
+
+// One side of something flat in the building as built. Never merges the two faces of a wall: normals point into free space.
+struct MapSurface {
+  uint32_t id = 0;
+  SurfaceKind kind = SurfaceKind::kWall;
+  Plane plane;  // map frame, current estimate
+  std::vector<Observation> observations;
+  double num_points = 0;
+  // Extent, map frame. Walls: the footprint from `start` to `end` as in plumb::Surface (free space to the left), and the height band.
+  Eigen::Vector2d start = Eigen::Vector2d::Zero(), end = Eigen::Vector2d::Zero();
+  double z_min_m = 0, z_max_m = 0;
+  // Cells of 0.1 m x 0.1 m of the surface that hold points: what was really seen of it. area_m2 = 0.01 * number of cells.
+  double area_m2 = 0;
+
+  [[nodiscard]] double length_m() const { return (end - start).norm(); }
+};
+
+struct Keyframe {
+  uint32_t id = 0;
+  double stamp_s = 0;
+  Eigen::Isometry3d T_map_kf = Eigen::Isometry3d::Identity();   // current estimate
+  Eigen::Isometry3d T_odom_kf = Eigen::Isometry3d::Identity();  // as odometry gave it, never changed
+  std::vector<Eigen::Vector3f> points;                          // deskewed, down-sampled, keyframe frame
+};
+
+struct SGraph {
+  std::vector<Keyframe> keyframes;
+  std::vector<MapSurface> surfaces;  // ids are stable; merged ones keep their slot with no observations
+};
+
+}  // namespace plumb::runtime

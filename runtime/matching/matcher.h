@@ -1,0 +1,66 @@
+// Global matching: where in the plan is the map? No start pose. Wall voting makes hypotheses, ray casting judges them,
+// a posterior over all of them, "outside the plan" among them, decides (runtime/METHOD.md, matching).
+#pragma once
+
+#include <Eigen/Geometry>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "runtime/mapping/sgraph.h"
+#include "schema/agraph.h"
+
+namespace plumb::runtime {
+
+struct MatcherOptions {
+  double yaw_bin_rad = 0.01745;
+  double vote_cell_m = 0.10;
+  double nms_radius_m = 0.5;
+  int max_hypotheses = 200;         // proposals that are verified by ray casting
+  int keep_hypotheses = 16;         // reported
+  double deviation_sigma_m = 0.10;  // how far built walls are expected off their plan when voting and verifying
+  double range_sigma_m = 0.03;
+  int rays_per_keyframe = 400;
+  int max_keyframes = 24;           // rays come from this many keyframes, spread over the map
+  double rays_per_independent = 30; // correlation: log-likelihoods are divided by this
+  double accept_probability = 0.999;
+  double accept_margin_nats = 10.0;
+  double accept_sigma_xy_m = 0.10;
+  double accept_sigma_yaw_rad = 0.0087;
+  [[nodiscard]] std::string Check() const;
+};
+
+struct Hypothesis {
+  Eigen::Isometry3d T_plan_map = Eigen::Isometry3d::Identity();  // gravity-aligned: yaw and translation only
+  StoreyId storey;
+  double log_likelihood = 0;  // relative to "outside the plan"
+  double probability = 0;
+  double sigma_xy_m = 0, sigma_yaw_rad = 0;
+};
+
+struct MatchResult {
+  enum class Verdict { kSearching, kAmbiguous, kUnique };
+  Verdict verdict = Verdict::kSearching;
+  std::vector<Hypothesis> hypotheses;  // best first, at most keep_hypotheses
+  double probability_outside = 1;
+  std::string reason;                  // why it is not unique yet; empty when it is
+};
+
+class Matcher {
+ public:
+  // Keeps a reference to `plan`, which must outlive it.
+  Matcher(const AGraph& plan, const MatcherOptions& options = {});
+  ~Matcher();
+
+  // All hypotheses from nothing. Deterministic.
+  [[nodiscard]] MatchResult Match(const SGraph& map) const;
+
+  // Log-likelihood of one pose, on the same scale as Hypothesis::log_likelihood: for re-scoring an accepted fix against its rivals.
+  [[nodiscard]] double Score(const SGraph& map, const Eigen::Isometry3d& T_plan_map) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace plumb::runtime

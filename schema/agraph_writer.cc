@@ -1,0 +1,168 @@
+#include "schema/agraph_writer.h"
+
+#include <flatbuffers/flatbuffers.h>
+
+#include "schema/agraph_generated.h"
+#include "schema/files.h"
+
+namespace plumb {
+namespace {
+
+using Builder = flatbuffers::FlatBufferBuilder;
+
+fb::Vec2 Pack(const Eigen::Vector2d& v) { return {v.x(), v.y()}; }
+fb::Vec3 Pack(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
+
+flatbuffers::Offset<fb::Ring> Pack(Builder& b, const Ring& ring) {
+  std::vector<fb::Vec2> points;
+  points.reserve(ring.size());
+  for (const auto& p : ring) points.push_back(Pack(p));
+  return fb::CreateRing(b, b.CreateVectorOfStructs(points));
+}
+
+// Packs each item with `pack` into a vector of tables.
+template <class Items, class Function>
+auto PackAll(Builder& b, const Items& items, Function pack) {
+  std::vector<decltype(pack(items.front()))> offsets;
+  offsets.reserve(items.size());
+  for (const auto& item : items) offsets.push_back(pack(item));
+  return b.CreateVector(offsets);
+}
+
+auto Str(Builder& b, const std::string& s) { return b.CreateSharedString(s); }
+
+auto PackStoreys(Builder& b, const AGraph& g) {
+  return PackAll(b, g.storeys, [&](const Storey& s) { return fb::CreateStorey(b, Str(b, s.guid), Str(b, s.name), s.elevation_m, s.height_m); });
+}
+
+auto PackWalls(Builder& b, const AGraph& g) {
+  return PackAll(b, g.walls, [&](const Wall& w) {
+    const fb::Vec2 start = Pack(w.axis_start), end = Pack(w.axis_end);
+    return fb::CreateWall(b, Str(b, w.guid), Str(b, w.name), Str(b, w.type), w.storey.value, &start, &end, w.thickness_m, w.z_min_m,
+                          w.z_max_m, w.external);
+  });
+}
+
+auto PackSurfaces(Builder& b, const AGraph& g) {
+  return PackAll(b, g.surfaces, [&](const Surface& s) {
+    flatbuffers::Offset<fb::Arc> arc;
+    if (s.arc) {
+      const fb::Vec2 center = Pack(s.arc->center);
+      arc = fb::CreateArc(b, &center, s.arc->radius_m, s.arc->start_rad, s.arc->sweep_rad);
+    }
+    const fb::Vec3 normal = Pack(s.normal);
+    const fb::Vec2 start = Pack(s.start), end = Pack(s.end);
+    return fb::CreateSurface(b, s.wall.value, s.storey.value, s.room.value, &normal, s.d_m, &start, &end, s.z_min_m, s.z_max_m, arc);
+  });
+}
+
+auto PackRooms(Builder& b, const AGraph& g) {
+  return PackAll(b, g.rooms, [&](const Room& r) {
+    const auto guid = Str(b, r.guid), name = Str(b, r.name);
+    const auto polygon = Pack(b, r.polygon);
+    const auto holes = PackAll(b, r.holes, [&](const Ring& ring) { return Pack(b, ring); });
+    std::vector<uint32_t> surfaces;
+    for (SurfaceId id : r.surfaces) surfaces.push_back(id.value);
+    const auto packed_surfaces = b.CreateVector(surfaces);
+    const fb::Vec3 center = Pack(r.center);
+    return fb::CreateRoom(b, guid, name, r.storey.value, polygon, holes, r.area_m2, &center, r.yaw_rad, r.floor_z_m, r.ceiling_z_m,
+                          packed_surfaces);
+  });
+}
+
+auto PackDoorways(Builder& b, const AGraph& g) {
+  return PackAll(b, g.doorways, [&](const Doorway& d) {
+    const fb::Vec3 position = Pack(d.position);
+    return fb::CreateDoorway(b, Str(b, d.guid), Str(b, d.name), d.storey.value, d.wall.value, d.room_a.value, d.room_b.value, &position,
+                             d.yaw_rad, d.width_m, d.height_m, d.has_leaf);
+  });
+}
+
+auto PackWindows(Builder& b, const AGraph& g) {
+  return PackAll(b, g.windows, [&](const Window& w) {
+    const fb::Vec3 position = Pack(w.position);
+    return fb::CreateWindow(b, Str(b, w.guid), Str(b, w.name), w.storey.value, w.wall.value, &position, w.yaw_rad, w.width_m, w.height_m);
+  });
+}
+
+auto PackColumns(Builder& b, const AGraph& g) {
+  return PackAll(b, g.columns, [&](const Column& c) {
+    const auto outline = Pack(b, c.outline);
+    return fb::CreateColumn(b, Str(b, c.guid), Str(b, c.name), c.storey.value, outline, c.z_min_m, c.z_max_m);
+  });
+}
+
+auto PackFactors(Builder& b, const AGraph& g) {
+  return PackAll(b, g.factors, [&](const Factor& f) {
+    return fb::CreateFactor(b, static_cast<fb::FactorKind>(f.kind), b.CreateVector(f.variables));
+  });
+}
+
+auto PackElements(Builder& b, const AGraph& g) {
+  return PackAll(b, g.elements, [&](const Element& e) {
+    return fb::CreateElement(b, Str(b, e.guid), Str(b, e.name), Str(b, e.type), static_cast<fb::ElementKind>(e.kind),
+                             static_cast<fb::Material>(e.material), e.storey.value, e.wall.value, e.doorway.value);
+  });
+}
+
+auto PackMesh(Builder& b, const Mesh& mesh) {
+  std::vector<fb::Vec3f> vertices;
+  vertices.reserve(mesh.vertices.size());
+  for (const auto& v : mesh.vertices) vertices.emplace_back(v.x(), v.y(), v.z());
+  std::vector<fb::Triangle> triangles;
+  triangles.reserve(mesh.triangles.size());
+  for (const auto& t : mesh.triangles) triangles.emplace_back(t.a, t.b, t.c, t.element);
+  const auto packed_vertices = b.CreateVectorOfStructs(vertices);
+  const auto packed_triangles = b.CreateVectorOfStructs(triangles);
+  return fb::CreateMesh(b, packed_vertices, packed_triangles);
+}
+
+auto PackAliases(Builder& b, const AGraph& g) {
+  return PackAll(b, g.aliases, [&](const Alias& a) {
+    const fb::Vec3 translation = Pack(a.translation);
+    return fb::CreateAlias(b, a.yaw_rad, &translation, a.overlap_ratio, a.from_storey.value, a.to_storey.value);
+  });
+}
+
+auto PackDiagnostics(Builder& b, const AGraph& g) {
+  return PackAll(b, g.diagnostics, [&](const DiagnosticCount& d) {
+    return fb::CreateDiagnosticCount(b, Str(b, d.code), static_cast<fb::Severity>(d.severity), d.count);
+  });
+}
+
+auto PackOptions(Builder& b, const AGraph& g) {
+  return PackAll(b, g.options, [&](const Option& o) { return fb::CreateOption(b, Str(b, o.name), Str(b, o.value)); });
+}
+
+}  // namespace
+
+std::vector<uint8_t> WriteAGraph(const AGraph& g) {
+  Builder b(1 << 20);
+  // Sequenced statements: the order of evaluation of call arguments, and so the bytes, would differ between compilers.
+  const auto tool_version = Str(b, g.tool_version);
+  const auto source_path = Str(b, g.source_path);
+  const auto source_format = Str(b, g.source_format);
+  const auto source_sha256 = Str(b, g.source_sha256);
+  const auto options = PackOptions(b, g);
+  const auto storeys = PackStoreys(b, g);
+  const auto walls = PackWalls(b, g);
+  const auto surfaces = PackSurfaces(b, g);
+  const auto rooms = PackRooms(b, g);
+  const auto doorways = PackDoorways(b, g);
+  const auto windows = PackWindows(b, g);
+  const auto columns = PackColumns(b, g);
+  const auto factors = PackFactors(b, g);
+  const auto elements = PackElements(b, g);
+  const auto mesh = PackMesh(b, g.mesh);
+  const auto aliases = PackAliases(b, g);
+  const auto diagnostics = PackDiagnostics(b, g);
+  const fb::Vec3 origin = Pack(g.origin);
+  b.Finish(fb::CreateAGraph(b, kSchemaMajor, kSchemaMinor, tool_version, source_path, source_format, source_sha256, options, &origin, storeys,
+                            walls, surfaces, rooms, doorways, windows, columns, factors, elements, mesh, aliases, diagnostics),
+           fb::AGraphIdentifier());
+  return {b.GetBufferPointer(), b.GetBufferPointer() + b.GetSize()};
+}
+
+Expected<void> WriteAGraphFile(const AGraph& graph, const std::string& path) { return WriteFileAtomically(path, WriteAGraph(graph)); }
+
+}  // namespace plumb

@@ -1,0 +1,87 @@
+#include "schema/files.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+
+namespace plumb {
+namespace {
+
+struct Descriptor {
+  int fd = -1;
+  ~Descriptor() {
+    if (fd >= 0) ::close(fd);
+  }
+};
+
+std::string Reason() { return std::strerror(errno); }
+
+// Container: std::string or std::vector<uint8_t>.
+template <class Container>
+Expected<Container> ReadWhole(const std::string& path, size_t max_bytes) {
+  Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
+  if (file.fd < 0) {
+    const ErrorCode code = errno == ENOENT ? ErrorCode::kFileNotFound : ErrorCode::kFileUnreadable;
+    return Fail(code, "cannot open `" + path + "`: " + Reason());
+  }
+  struct stat info {};
+  if (::fstat(file.fd, &info) != 0 || S_ISDIR(info.st_mode)) return Fail(ErrorCode::kFileUnreadable, "`" + path + "` is no file");
+  if (static_cast<size_t>(info.st_size) > max_bytes) {
+    return Fail(ErrorCode::kFileTooLarge, "`" + path + "` has " + std::to_string(info.st_size) + " bytes; at most " +
+                                              std::to_string(max_bytes) + " are read");
+  }
+  Container bytes;
+  bytes.resize(static_cast<size_t>(info.st_size));
+  size_t done = 0;
+  while (done < bytes.size()) {
+    const ssize_t n = ::read(file.fd, bytes.data() + done, bytes.size() - done);
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return Fail(ErrorCode::kFileUnreadable, "cannot read `" + path + "`: " + Reason());
+    if (n == 0) break;  // shorter than stat said: it was cut meanwhile
+    done += static_cast<size_t>(n);
+  }
+  bytes.resize(done);
+  return bytes;
+}
+
+Expected<void> WriteWhole(const std::string& path, const char* data, size_t size) {
+  const std::string temporary = path + ".tmp" + std::to_string(::getpid());
+  const auto fail = [&](const std::string& what) {
+    const std::string reason = Reason();
+    ::unlink(temporary.c_str());
+    return Fail(ErrorCode::kFileUnwritable, what + " `" + path + "`: " + reason);
+  };
+  {
+    Descriptor file{::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)};
+    if (file.fd < 0) return fail("cannot create");
+    size_t done = 0;
+    while (done < size) {
+      const ssize_t n = ::write(file.fd, data + done, size - done);
+      if (n < 0 && errno == EINTR) continue;
+      if (n < 0) return fail("cannot write");
+      done += static_cast<size_t>(n);
+    }
+  }
+  if (::rename(temporary.c_str(), path.c_str()) != 0) return fail("cannot rename onto");
+  return {};
+}
+
+}  // namespace
+
+Expected<std::vector<uint8_t>> ReadFileBytes(const std::string& path, size_t max_bytes) {
+  return ReadWhole<std::vector<uint8_t>>(path, max_bytes);
+}
+
+Expected<std::string> ReadFileText(const std::string& path, size_t max_bytes) { return ReadWhole<std::string>(path, max_bytes); }
+
+Expected<void> WriteFileAtomically(const std::string& path, std::span<const uint8_t> bytes) {
+  return WriteWhole(path, reinterpret_cast<const char*>(bytes.data()), bytes.size());
+}
+
+Expected<void> WriteFileAtomically(const std::string& path, std::string_view text) { return WriteWhole(path, text.data(), text.size()); }
+
+}  // namespace plumb

@@ -1,0 +1,95 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <limits>
+#include <random>
+
+#include "schema/agraph_json.h"
+#include "schema/agraph_reader.h"
+#include "schema/agraph_writer.h"
+#include "tests/support/house.h"
+
+namespace plumb {
+namespace {
+
+TEST(AGraphIo, ReadsBackWhatItWrote) {
+  const AGraph house = test::MakeHouse();
+  const std::vector<uint8_t> bytes = WriteAGraph(house);
+  const Expected<AGraph> read = ReadAGraph(bytes);
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(WriteAGraph(*read), bytes);
+  EXPECT_EQ(AGraphToJson(*read), AGraphToJson(house));
+  EXPECT_EQ(read->mesh.triangles.size(), house.mesh.triangles.size());
+}
+
+TEST(AGraphIo, KeepsArcsAliasesAndFactors) {
+  AGraph house = test::MakeHouse();
+  house.surfaces[0].arc = Arc{{1, 2}, 3, 0.5, -1.25};
+  house.aliases.push_back({3.14, {1, 2, 0}, 0.9, StoreyId(0), StoreyId(0)});
+  house.factors.push_back({FactorKind::kRoomSurfaces, {0, 0, 1, 2, 3}});
+  const Expected<AGraph> read = ReadAGraph(WriteAGraph(house));
+  ASSERT_TRUE(read) << read.error().message;
+  ASSERT_TRUE(read->surfaces[0].arc.has_value());
+  EXPECT_EQ(read->surfaces[0].arc->sweep_rad, -1.25);
+  EXPECT_EQ(read->aliases[0].overlap_ratio, 0.9);
+  EXPECT_EQ(read->factors[0].variables.size(), 5u);
+}
+
+TEST(AGraphIo, RefusesOtherFiles) {
+  const std::vector<uint8_t> jpeg = {0xff, 0xd8, 0xff, 0xe0, 0, 16, 'J', 'F', 'I', 'F', 0, 1};
+  EXPECT_EQ(ReadAGraph(jpeg).error().code, ErrorCode::kNotAnAGraph);
+  EXPECT_EQ(ReadAGraph({}).error().code, ErrorCode::kNotAnAGraph);
+  EXPECT_EQ(ReadAGraphFile("/nonexistent.agraph").error().code, ErrorCode::kFileNotFound);
+}
+
+TEST(AGraphIo, RefusesReferencesToNothing) {
+  AGraph house = test::MakeHouse();
+  house.surfaces[3].wall = WallId(99);
+  EXPECT_EQ(ReadAGraph(WriteAGraph(house)).error().code, ErrorCode::kAGraphInconsistent);
+  house = test::MakeHouse();
+  house.mesh.triangles[5].c = 1u << 30;
+  EXPECT_EQ(ReadAGraph(WriteAGraph(house)).error().code, ErrorCode::kAGraphInconsistent);
+  house = test::MakeHouse();
+  house.walls[0].thickness_m = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(ReadAGraph(WriteAGraph(house)).error().code, ErrorCode::kAGraphInconsistent);
+  house = test::MakeHouse();
+  house.factors.push_back({FactorKind::kDoorwayRooms, {0, 77, 0}});
+  EXPECT_EQ(ReadAGraph(WriteAGraph(house)).error().code, ErrorCode::kAGraphInconsistent);
+}
+
+TEST(AGraphIo, SurvivesEveryTruncation) {
+  AGraph house = test::MakeHouse();
+  house.mesh = {};
+  const std::vector<uint8_t> bytes = WriteAGraph(house);
+  for (size_t size = 0; size < bytes.size(); size += 7) {
+    const std::vector<uint8_t> cut(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size));
+    EXPECT_FALSE(ReadAGraph(cut)) << size;
+  }
+}
+
+TEST(AGraphIo, SurvivesFlippedBits) {
+  const std::vector<uint8_t> bytes = WriteAGraph(test::MakeHouse());
+  std::mt19937 random(7);
+  int refused = 0;
+  for (int round = 0; round < 2000; ++round) {
+    std::vector<uint8_t> damaged = bytes;
+    for (int k = 0; k < 3; ++k) damaged[random() % damaged.size()] ^= static_cast<uint8_t>(1u << (random() % 8));
+    refused += !ReadAGraph(damaged);  // may load: a changed coordinate is a valid coordinate
+  }
+  EXPECT_GT(refused, 100);
+}
+
+TEST(AGraphIo, WritesTheSameBytesTwice) { EXPECT_EQ(WriteAGraph(test::MakeHouse()), WriteAGraph(test::MakeHouse())); }
+
+TEST(AGraphIo, LeavesNoTemporaryFileBehind) {
+  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "agraph_io";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  ASSERT_TRUE(WriteAGraphFile(test::MakeHouse(), folder / "house.agraph"));
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 1);
+  EXPECT_TRUE(ReadAGraphFile(folder / "house.agraph"));
+  EXPECT_EQ(WriteAGraphFile(test::MakeHouse(), folder / "no" / "such.agraph").error().code, ErrorCode::kFileUnwritable);
+}
+
+}  // namespace
+}  // namespace plumb

@@ -1,0 +1,38 @@
+# Language level, build type, warnings, sanitizers, compiler cache and linker for every target.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
+endif()
+
+find_program(PLUMB_CCACHE ccache)
+if(PLUMB_CCACHE)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${PLUMB_CCACHE}")
+endif()
+find_program(PLUMB_MOLD mold)
+if(PLUMB_MOLD AND NOT PLUMB_SANITIZE)
+  add_link_options(-fuse-ld=mold)
+endif()
+
+add_library(plumb_warnings INTERFACE)
+target_compile_options(plumb_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+  -Woverloaded-virtual -Wcast-qual -Wextra-semi -Wundef $<$<BOOL:${PLUMB_WERROR}>:-Werror>)
+
+# Same input, same bytes on every machine: no fused multiply-add that one compiler makes and another does not.
+add_compile_options(-ffp-contract=off)
+
+if(PLUMB_SANITIZE)
+  string(REPLACE ";" "," _sanitizers "${PLUMB_SANITIZE}")
+  add_compile_options(-fsanitize=${_sanitizers} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${_sanitizers})
+endif()
+
+find_package(Threads REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(fmt REQUIRED)
+find_package(tl-expected REQUIRED)
+find_package(nlohmann_json REQUIRED)

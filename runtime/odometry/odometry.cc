@@ -18,7 +18,8 @@ constexpr double kLevelingVoxel_m = 1.0;        // wide enough for two rings on 
 constexpr int kMinFirstPoints = 200;
 constexpr int kMaxFailures = 5;                 // in a row; then the map goes on from the predicted pose
 constexpr double kMaxPrediction_s = 1.0;        // velocity is not trusted for longer
-constexpr double kAcceleration_mps2 = 3.0, kTurning_radps2 = 6.0;  // of a robot or a walking person, one sigma
+// Of a robot or a walking person, one sigma; less up and down and in tilt.
+const Eigen::Vector3d kAcceleration_mps2(3.0, 3.0, 1.0), kTurning_radps2(1.5, 1.5, 6.0);
 constexpr double kGivenScaleSigma = 0.1;        // a given odometry's relative error
 constexpr double kMaxGivenSpeed_mps = 30.0;     // beyond, the given odometry has jumped
 constexpr double kVerticalDamping = 0.5;        // robots move along the floor: climbing at this rate dies out where no plane measures it
@@ -43,6 +44,17 @@ Eigen::Isometry3d Advanced(const Eigen::Isometry3d& T, const Twist& twist, doubl
 }
 
 double RotationAngle(const Eigen::Isometry3d& T) { return LogSo3(T.linear()).norm(); }
+
+constexpr double kFloor_m = 0.005, kFloor_rad = 0.003;  // least sigma of any prediction
+
+PoseSigma CoastingSigma(double dt_s) {
+  return {(kTurning_radps2 * dt_s * dt_s).array() + kFloor_rad, (kAcceleration_mps2 * dt_s * dt_s).array() + kFloor_m};
+}
+
+PoseSigma GivenSigma(const Eigen::Isometry3d& moved) {
+  return {Eigen::Vector3d::Constant(kFloor_rad + kGivenScaleSigma * RotationAngle(moved)),
+          Eigen::Vector3d::Constant(kFloor_m + kGivenScaleSigma * moved.translation().norm())};
+}
 
 }  // namespace
 
@@ -137,26 +149,21 @@ SweepPrior Odometry::Impl::Predict(double next_stamp_s, double next_sweep_s, con
   SweepPrior prior;
   const double gap_s = std::clamp(next_stamp_s - stamp_s - sweep_s, -sweep_s, kMaxPrediction_s);
   const Eigen::Isometry3d& T_last = motion.T_end;
-  const double slack_s = std::abs(gap_s);
   if (given && last_given) {
     const Eigen::Isometry3d moved = last_given->T_end.inverse() * given->T_start;
     prior.mean.T_start = T_last * moved;
-    prior.start_sigma_m = 0.01 + kGivenScaleSigma * moved.translation().norm();
-    prior.start_sigma_rad = 0.005 + kGivenScaleSigma * RotationAngle(moved);
+    prior.start = GivenSigma(moved);
   } else {
     prior.mean.T_start = Advanced(T_last, twist, gap_s);
-    prior.start_sigma_m = 0.01 + kAcceleration_mps2 * slack_s * slack_s;
-    prior.start_sigma_rad = 0.005 + kTurning_radps2 * slack_s * slack_s;
+    prior.start = CoastingSigma(gap_s);
   }
   if (given) {
     const Eigen::Isometry3d moved = given->T_start.inverse() * given->T_end;
     prior.mean.T_end = prior.mean.T_start * moved;
-    prior.motion_sigma_m = 0.005 + kGivenScaleSigma * moved.translation().norm();
-    prior.motion_sigma_rad = 0.003 + kGivenScaleSigma * RotationAngle(moved);
+    prior.motion = GivenSigma(moved);
   } else {
     prior.mean.T_end = Advanced(prior.mean.T_start, twist, next_sweep_s);
-    prior.motion_sigma_m = 0.005 + kAcceleration_mps2 * next_sweep_s * next_sweep_s;
-    prior.motion_sigma_rad = 0.005 + kTurning_radps2 * next_sweep_s * next_sweep_s;
+    prior.motion = CoastingSigma(next_sweep_s);
   }
   if (next_sweep_s <= 0) prior.mean.T_end = prior.mean.T_start;
   return prior;

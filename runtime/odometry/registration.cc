@@ -14,6 +14,7 @@ using Vector12d = Eigen::Matrix<double, 12, 1>;
 
 constexpr double kInlierSigmas = 3.0;
 constexpr double kConverged_m = 1e-4, kConverged_rad = 2e-5;
+constexpr double kNormalNoiseMargin = 2.0;
 constexpr int kMinInliers = 60;
 constexpr double kMinInlierRatio = 0.4, kMinOverlapRatio = 0.1;
 
@@ -21,7 +22,7 @@ constexpr double kMinInlierRatio = 0.4, kMinOverlapRatio = 0.1;
 struct NormalEquations {
   Matrix6d A[3] = {Matrix6d::Zero(), Matrix6d::Zero(), Matrix6d::Zero()};
   Vector6d g[2] = {Vector6d::Zero(), Vector6d::Zero()};
-  double weight = 0, weighted_radius2_m2 = 0;
+  double weight = 0, weighted_radius2_m2 = 0, weighted_normal_variance = 0;
   int num_matched = 0, num_inliers = 0;
   double inlier_square_sum_m2 = 0;
 };
@@ -55,6 +56,7 @@ NormalEquations Accumulate(std::span<const SweepPoint> points, const SurfelMap& 
     sum.g[0] += wa * e.residual_m;
     sum.g[1] += wa * (point.s * e.residual_m);
     sum.weight += w;
+    sum.weighted_normal_variance += w * surfel->NormalVariance(range_sigma_m);
     sum.weighted_radius2_m2 += w * (q - center).squaredNorm();
   }
   return sum;
@@ -67,10 +69,11 @@ Matrix6d HeldDirections(const NormalEquations& sum, double degenerate_ratio) {
   Vector6d scale;
   scale << Eigen::Vector3d::Constant(1 / radius_m), Eigen::Vector3d::Ones();
   const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(scale.asDiagonal() * sum.A[0] * scale.asDiagonal());
+  const double least = std::max(degenerate_ratio * sum.weight, kNormalNoiseMargin * sum.weighted_normal_variance);
   Matrix6d P = Matrix6d::Zero();
   for (int i = 0; i < 6; ++i) {
     const Vector6d v = eigen.eigenvectors().col(i);
-    if (eigen.eigenvalues()[i] >= degenerate_ratio * sum.weight) P += v * v.transpose();
+    if (eigen.eigenvalues()[i] >= least) P += v * v.transpose();
   }
   // Increments x are scale * y with y in the eigenvectors' coordinates.
   return scale.asDiagonal() * P * scale.cwiseInverse().asDiagonal();
@@ -83,9 +86,9 @@ Vector6d Difference(const Eigen::Isometry3d& actual, const Eigen::Isometry3d& me
   return d;
 }
 
-Vector6d Information(double sigma_rad, double sigma_m) {
+Vector6d Information(const PoseSigma& sigma) {
   Vector6d v;
-  v << Eigen::Vector3d::Constant(1 / (sigma_rad * sigma_rad)), Eigen::Vector3d::Constant(1 / (sigma_m * sigma_m));
+  v << sigma.rotation_rad.array().square().inverse(), sigma.translation_m.array().square().inverse();
   return v;
 }
 
@@ -99,8 +102,8 @@ Vector12d SolveStep(const NormalEquations& sum, const SweepMotion& motion, const
   g << share * P.transpose() * sum.g[0], share * P.transpose() * sum.g[1];
   const Vector6d start = Difference(motion.T_start, prior.mean.T_start);
   const Vector6d during = Difference(motion.T_end, prior.mean.T_end) - start;
-  const Vector6d start_information = Information(prior.start_sigma_rad, prior.start_sigma_m);
-  const Vector6d during_information = Information(prior.motion_sigma_rad, prior.motion_sigma_m);
+  const Vector6d start_information = Information(prior.start);
+  const Vector6d during_information = Information(prior.motion);
   H.diagonal().head<6>() += start_information;
   H.diagonal().tail<6>() += during_information;
   g.head<6>() += start_information.cwiseProduct(start);

@@ -16,18 +16,24 @@
 
 namespace plumb::runtime {
 
-// Gaussian on the pose at the start and on the motion during the sweep; sigmas per axis, odometry's frame.
+// Sigmas along and about the axes of the odometry's frame.
+struct PoseSigma {
+  Eigen::Vector3d rotation_rad = Eigen::Vector3d::Constant(0.01), translation_m = Eigen::Vector3d::Constant(0.02);
+};
+
+// Gaussian on the pose at the start and on the motion during the sweep.
 struct SweepPrior {
   SweepMotion mean;
-  double start_sigma_m = 0.02, start_sigma_rad = 0.01;
-  double motion_sigma_m = 0.03, motion_sigma_rad = 0.05;
+  PoseSigma start, motion;
 };
 
 struct RegistrationOptions {
   int max_iterations = 20;
   double range_sigma_m = 0.02;
   double points_per_independent = 20;   // neighbouring returns err alike: so many count as one against the prior
-  double degenerate_ratio = 0.002;      // share of the planes' information below which a direction is the prior's alone
+  // A direction is the prior's alone if its share of the planes' information is below this, or below what the noise of their normals makes
+  // up: along a smooth corridor, normals that err by 1 degree seem to say where the robot is.
+  double degenerate_ratio = 3e-4;
   double initial_kernel_m = 0.3;        // of the first iteration; halves down to three sigma
   bool search_neighbours = false;       // first iterations also look into neighbouring voxels: for large prediction errors
 };

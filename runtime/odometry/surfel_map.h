@@ -9,6 +9,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -49,6 +50,10 @@ struct Surfel {
   [[nodiscard]] double SignedDistance(const Eigen::Vector3d& p) const { return normal.dot(p - mean); }
   // Variance of the signed distance of a point of the same surface measured at p: its noise and the plane's own uncertainty there.
   [[nodiscard]] double DistanceVariance(const Eigen::Vector3d& p, double range_sigma_m) const;
+  // Of the normal's angle in its less certain direction.
+  [[nodiscard]] double NormalVariance(double range_sigma_m) const {
+    return std::max(var_normal_m2, range_sigma_m * range_sigma_m) / (count * var_minor_m2);
+  }
 };
 
 class SurfelMap {

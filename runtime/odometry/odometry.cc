@@ -45,15 +45,25 @@ Eigen::Isometry3d Advanced(const Eigen::Isometry3d& T, const Twist& twist, doubl
 
 double RotationAngle(const Eigen::Isometry3d& T) { return LogSo3(T.linear()).norm(); }
 
-constexpr double kFloor_m = 0.005, kFloor_rad = 0.003;  // least sigma of any prediction
+constexpr double kFloor_m = 0.003, kFloor_rad = 0.002;  // least sigma of any prediction: a sweep is not exactly linear in time
 
-PoseSigma CoastingSigma(double dt_s) {
-  return {(kTurning_radps2 * dt_s * dt_s).array() + kFloor_rad, (kAcceleration_mps2 * dt_s * dt_s).array() + kFloor_m};
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+Matrix6d DiagonalCovariance(const Eigen::Vector3d& rotation_rad, const Eigen::Vector3d& translation_m) {
+  Vector6d variances;
+  variances << rotation_rad.array().square(), translation_m.array().square();
+  return variances.asDiagonal();
 }
 
-PoseSigma GivenSigma(const Eigen::Isometry3d& moved) {
-  return {Eigen::Vector3d::Constant(kFloor_rad + kGivenScaleSigma * RotationAngle(moved)),
-          Eigen::Vector3d::Constant(kFloor_m + kGivenScaleSigma * moved.translation().norm())};
+// What speeding up or braking adds to a motion over dt_s that is predicted from one over earlier_s.
+Matrix6d CoastingCovariance(double dt_s, double earlier_s) {
+  const double product_s2 = std::abs(dt_s) * std::max(std::abs(dt_s), earlier_s);
+  return DiagonalCovariance((kTurning_radps2 * product_s2).array() + kFloor_rad, (kAcceleration_mps2 * product_s2).array() + kFloor_m);
+}
+
+Matrix6d GivenCovariance(const Eigen::Isometry3d& moved) {
+  return DiagonalCovariance(Eigen::Vector3d::Constant(kFloor_rad + kGivenScaleSigma * RotationAngle(moved)),
+                            Eigen::Vector3d::Constant(kFloor_m + kGivenScaleSigma * moved.translation().norm()));
 }
 
 }  // namespace
@@ -98,6 +108,7 @@ struct Odometry::Impl {
   // Of the last scan.
   double stamp_s = 0, sweep_s = 0;
   SweepMotion motion;
+  Matrix12d covariance = Matrix12d::Zero();  // of `motion`'s start and motion during the sweep
   Twist twist;
   std::optional<GivenMotion> last_given;
   double prediction_error2_m2 = 0.04;  // running mean square of what predictions move points by, wrongly
@@ -133,6 +144,7 @@ void Odometry::Impl::Start(const PreparedScan& prepared, const std::optional<Giv
   if (const std::optional<Eigen::Vector3d> up = FindUp(around, kMaxTilt_rad)) motion.T_start.linear() = LevelingRotation(*up);
   motion.T_end = motion.T_start;
   sweep_s = prepared.sweep_s;
+  covariance.bottomRightCorner<6, 6>() = DiagonalCovariance(Eigen::Vector3d::Constant(0.05), Eigen::Vector3d::Constant(0.1));
   if (given) {
     motion.T_end = motion.T_start * given->T_start.inverse() * given->T_end;
     if (sweep_s > 0) twist = TwistBetween(motion.T_start, motion.T_end, sweep_s);
@@ -148,24 +160,30 @@ void Odometry::Impl::Start(const PreparedScan& prepared, const std::optional<Giv
 SweepPrior Odometry::Impl::Predict(double next_stamp_s, double next_sweep_s, const std::optional<GivenMotion>& given) const {
   SweepPrior prior;
   const double gap_s = std::clamp(next_stamp_s - stamp_s - sweep_s, -sweep_s, kMaxPrediction_s);
-  const Eigen::Isometry3d& T_last = motion.T_end;
+  // The next start and motion, given the last ones' increments: start' = d + (1 + gap / sweep) e, motion' = (sweep' / sweep) e.
+  Matrix12d F = Matrix12d::Zero(), Q = Matrix12d::Zero();
+  F.topLeftCorner<6, 6>().setIdentity();
+  if (sweep_s > 0) F.topRightCorner<6, 6>().setIdentity();
   if (given && last_given) {
     const Eigen::Isometry3d moved = last_given->T_end.inverse() * given->T_start;
-    prior.mean.T_start = T_last * moved;
-    prior.start = GivenSigma(moved);
+    prior.mean.T_start = motion.T_end * moved;
+    Q.topLeftCorner<6, 6>() = GivenCovariance(moved);
   } else {
-    prior.mean.T_start = Advanced(T_last, twist, gap_s);
-    prior.start = CoastingSigma(gap_s);
+    prior.mean.T_start = Advanced(motion.T_end, twist, gap_s);
+    Q.topLeftCorner<6, 6>() = CoastingCovariance(gap_s, 0);
+    if (sweep_s > 0) F.topRightCorner<6, 6>() *= 1 + gap_s / sweep_s;
   }
   if (given) {
     const Eigen::Isometry3d moved = given->T_start.inverse() * given->T_end;
     prior.mean.T_end = prior.mean.T_start * moved;
-    prior.motion = GivenSigma(moved);
+    Q.bottomRightCorner<6, 6>() = GivenCovariance(moved);
   } else {
     prior.mean.T_end = Advanced(prior.mean.T_start, twist, next_sweep_s);
-    prior.motion = CoastingSigma(next_sweep_s);
+    Q.bottomRightCorner<6, 6>() = CoastingCovariance(next_sweep_s, sweep_s);
+    if (sweep_s > 0) F.bottomRightCorner<6, 6>() = next_sweep_s / sweep_s * Matrix6d::Identity();
   }
   if (next_sweep_s <= 0) prior.mean.T_end = prior.mean.T_start;
+  prior.covariance = F * covariance * F.transpose() + Q;
   return prior;
 }
 
@@ -214,6 +232,7 @@ void Odometry::Impl::Advance(const PreparedScan& prepared, const RegistrationRes
     twist = TwistBetween(motion.T_start, aligned.motion.T_start, dt_s);
   }
   motion = aligned.motion;
+  covariance = aligned.covariance;
   stamp_s = prepared.scan.stamp_s;
   sweep_s = prepared.sweep_s;
   last_given = given;
@@ -236,7 +255,10 @@ OdometryResult Odometry::Register(const Scan& scan, const std::optional<GivenMot
     const double gap_s = scan.stamp_s - s.stamp_s - s.sweep_s;
     RegistrationResult aligned = s.Align(prepared, prior, gap_s);
     if (aligned.ok && s.first) s.RestartWithVelocity(prepared, prior, &aligned);
-    if (!aligned.ok) aligned.motion = prior.mean;
+    if (!aligned.ok) {
+      aligned.motion = prior.mean;
+      aligned.covariance = prior.covariance;
+    }
     s.failures = aligned.ok ? 0 : s.failures + 1;
     if (aligned.ok && !s.first) s.LearnPredictionError(prior.mean, aligned.motion);
     if (aligned.ok || (s.failures >= kMaxFailures && !too_few)) s.Insert(prepared, aligned.motion);

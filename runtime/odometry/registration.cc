@@ -9,8 +9,6 @@ namespace plumb::runtime {
 namespace {
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
-using Matrix12d = Eigen::Matrix<double, 12, 12>;
-using Vector12d = Eigen::Matrix<double, 12, 1>;
 
 constexpr double kInlierSigmas = 3.0;
 constexpr double kConverged_m = 1e-4, kConverged_rad = 2e-5;
@@ -86,29 +84,25 @@ Vector6d Difference(const Eigen::Isometry3d& actual, const Eigen::Isometry3d& me
   return d;
 }
 
-Vector6d Information(const PoseSigma& sigma) {
-  Vector6d v;
-  v << sigma.rotation_rad.array().square().inverse(), sigma.translation_m.array().square().inverse();
-  return v;
-}
-
-Vector12d SolveStep(const NormalEquations& sum, const SweepMotion& motion, const SweepPrior& prior, const RegistrationOptions& options) {
-  const Matrix6d P = HeldDirections(sum, options.degenerate_ratio);
-  const double share = 1 / options.points_per_independent;
+struct LinearSystem {
   Matrix12d H;
   Vector12d g;
+};
+
+LinearSystem WithPrior(const NormalEquations& sum, const SweepMotion& motion, const SweepPrior& prior, const Matrix12d& prior_information,
+                       const RegistrationOptions& options) {
+  const Matrix6d P = HeldDirections(sum, options.degenerate_ratio);
+  const double share = 1 / options.points_per_independent;
+  LinearSystem system;
   const Matrix6d mixed = share * P.transpose() * sum.A[1] * P;
-  H << share * P.transpose() * sum.A[0] * P, mixed, mixed, share * P.transpose() * sum.A[2] * P;
-  g << share * P.transpose() * sum.g[0], share * P.transpose() * sum.g[1];
+  system.H << share * P.transpose() * sum.A[0] * P, mixed, mixed, share * P.transpose() * sum.A[2] * P;
+  system.g << share * P.transpose() * sum.g[0], share * P.transpose() * sum.g[1];
   const Vector6d start = Difference(motion.T_start, prior.mean.T_start);
-  const Vector6d during = Difference(motion.T_end, prior.mean.T_end) - start;
-  const Vector6d start_information = Information(prior.start);
-  const Vector6d during_information = Information(prior.motion);
-  H.diagonal().head<6>() += start_information;
-  H.diagonal().tail<6>() += during_information;
-  g.head<6>() += start_information.cwiseProduct(start);
-  g.tail<6>() += during_information.cwiseProduct(during);
-  return H.ldlt().solve(-g);
+  Vector12d off;
+  off << start, Difference(motion.T_end, prior.mean.T_end) - start;
+  system.H += prior_information;
+  system.g += prior_information * off;
+  return system;
 }
 
 }  // namespace
@@ -133,13 +127,15 @@ RegistrationResult RegisterSweep(std::span<const SweepPoint> points, bool timed,
                                  const RegistrationOptions& options) {
   RegistrationResult result;
   result.motion = prior.mean;
+  const Matrix12d prior_information = prior.covariance.llt().solve(Matrix12d::Identity());
   const double final_kernel_m = kInlierSigmas * options.range_sigma_m;
   double kernel_m = std::max(options.initial_kernel_m, final_kernel_m);
   for (; result.iterations < options.max_iterations; ++result.iterations) {
     const bool coarse = kernel_m > 4 * final_kernel_m;
     const NormalEquations sum =
         Accumulate(points, map, result.motion, kernel_m, options.search_neighbours && coarse, options.range_sigma_m);
-    const Vector12d step = SolveStep(sum, result.motion, prior, options);
+    const LinearSystem system = WithPrior(sum, result.motion, prior, prior_information, options);
+    const Vector12d step = system.H.ldlt().solve(-system.g);
     if (!step.allFinite()) return result;
     const Eigen::Vector3d center = result.motion.T_start.translation();
     result.motion.T_start = Moved(result.motion.T_start, step.head<6>(), center);
@@ -151,6 +147,7 @@ RegistrationResult RegisterSweep(std::span<const SweepPoint> points, bool timed,
     kernel_m = std::max(final_kernel_m, 0.5 * kernel_m);
   }
   const NormalEquations last = Accumulate(points, map, result.motion, final_kernel_m, false, options.range_sigma_m);
+  result.covariance = WithPrior(last, result.motion, prior, prior_information, options).H.ldlt().solve(Matrix12d::Identity());
   result.num_inliers = last.num_inliers;
   result.inlier_ratio = last.num_matched > 0 ? static_cast<double>(last.num_inliers) / last.num_matched : 0;
   result.overlap_ratio = points.empty() ? 0 : static_cast<double>(last.num_matched) / static_cast<double>(points.size());

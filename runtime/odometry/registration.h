@@ -16,15 +16,14 @@
 
 namespace plumb::runtime {
 
-// Sigmas along and about the axes of the odometry's frame.
-struct PoseSigma {
-  Eigen::Vector3d rotation_rad = Eigen::Vector3d::Constant(0.01), translation_m = Eigen::Vector3d::Constant(0.02);
-};
+using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Vector12d = Eigen::Matrix<double, 12, 1>;
+using Matrix12d = Eigen::Matrix<double, 12, 12>;
 
-// Gaussian on the pose at the start and on the motion during the sweep.
+// Gaussian on the increments (d, e) about `mean`: of the pose at the start and of the motion during the sweep.
 struct SweepPrior {
   SweepMotion mean;
-  PoseSigma start, motion;
+  Matrix12d covariance = Matrix12d::Identity();
 };
 
 struct RegistrationOptions {
@@ -41,14 +40,13 @@ struct RegistrationOptions {
 struct RegistrationResult {
   bool ok = false;        // enough points lie on the map's planes
   SweepMotion motion;
+  Matrix12d covariance = Matrix12d::Identity();  // of (d, e) about `motion`, prior and points together
   int iterations = 0;
   int num_inliers = 0;
   double inlier_ratio = 0;  // of the points that fell on a surfel
   double overlap_ratio = 0; // points that fell on a surfel, of all
   double rms_m = 0;
 };
-
-using Vector6d = Eigen::Matrix<double, 6, 1>;
 
 // Signed distance of T p to the plane through `mean` with `normal`, and its derivative by an increment (rotation, translation) about `center`.
 struct PointToPlane {

@@ -49,6 +49,9 @@ std::vector<Eigen::Vector3f> KeyframeWindow::ThinnedPoints() const {
       if (voxels.Insert(VoxelKey(p.cast<double>() / options_.keyframe_voxel_m)).second) thinned.push_back(p);
     }
   }
+  const size_t step = thinned.size() / static_cast<size_t>(options_.max_keyframe_points) + 1;
+  for (size_t i = 0; i * step < thinned.size(); ++i) thinned[i] = thinned[i * step];
+  thinned.resize((thinned.size() + step - 1) / step);
   return thinned;
 }
 

@@ -29,7 +29,7 @@ class KeyframeWindow {
   [[nodiscard]] const std::vector<View>& views() const { return views_; }
   [[nodiscard]] const SurfelMap& surfels() const { return surfels_; }
 
-  // At most one point per voxel, keyframe frame.
+  // At most one point per voxel and max_keyframe_points, keyframe frame.
   [[nodiscard]] std::vector<Eigen::Vector3f> ThinnedPoints() const;
 
  private:

@@ -30,6 +30,7 @@ std::string MapperOptions::Check() const {
   if (!(keyframe_rotation_rad > 0)) return bad("keyframe_rotation_rad", keyframe_rotation_rad, "> 0");
   if (!(keyframe_interval_s > 0)) return bad("keyframe_interval_s", keyframe_interval_s, "> 0");
   if (!(keyframe_voxel_m >= 0.005 && keyframe_voxel_m <= 1)) return bad("keyframe_voxel_m", keyframe_voxel_m, "in [0.005, 1]");
+  if (max_keyframe_points < 100) return bad("max_keyframe_points", max_keyframe_points, ">= 100");
   if (!(min_range_m > 0)) return bad("min_range_m", min_range_m, "> 0");
   if (!(max_range_m > min_range_m)) return bad("max_range_m", max_range_m, "> min_range_m");
   if (!(plane_sigma_m >= 0.002 && plane_sigma_m <= 0.2)) return bad("plane_sigma_m", plane_sigma_m, "in [0.002, 0.2]");

@@ -15,38 +15,49 @@ namespace {
 
 constexpr double kSin15 = 0.25881904510252074, kCos15 = 0.9659258262890683;
 constexpr double kSameNormalCos = 0.94;     // 20 degrees between a surfel and its region
-constexpr double kSurfelBandSigmas = 1.5;   // between a surfel's mean and its region's plane
+constexpr double kMaxStep_m = 0.02;         // between a surfel and its region's plane, beyond their uncertainties: door leaves are recessed by little more
+constexpr double kMaxRmsSigmas = 1.5;       // of a region
 constexpr double kBandSigmas = 3.0;         // between a point and its segment's plane
 constexpr double kMinCosIncidence = 0.15;   // flatter rays are biased by the beam's width
 constexpr double kMinSigma_m = 0.01;
 constexpr double kMinAcross_m = 0.2;        // height of a wall segment
+constexpr double kSmallRegion = 0.2;        // of the points of another region that wants the same point
 constexpr int kMinCellPoints = 2;
+constexpr double kMinCellShare = 0.25;      // of the median cell's points: less is noise beyond an edge
 constexpr double kRefitGrowth = 1.1;
 
-// Surfels of one plane.
+// Surfels of one plane; `plane` is a surfel as large as the region.
 struct Region {
-  Surfel sum;
-  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();
-  double rms_m = 0, fitted_count = 0;
+  Surfel plane;
   std::vector<uint32_t> members;
 
   void Fit() {
-    fitted_count = sum.count;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(sum.scatter / sum.count);
+    plane.fitted_count = plane.count;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(plane.scatter / plane.count);
     const Eigen::Vector3d n = eigen.eigenvectors().col(0);
-    normal = n.dot(normal) < 0 ? Eigen::Vector3d(-n) : n;
-    rms_m = std::sqrt(std::max(0.0, eigen.eigenvalues()[0]));
+    plane.normal = n.dot(plane.normal) < 0 ? Eigen::Vector3d(-n) : n;
+    plane.minor = eigen.eigenvectors().col(1);
+    plane.major = eigen.eigenvectors().col(2);
+    const Eigen::Vector3d variances = eigen.eigenvalues().cwiseMax(1e-12);
+    plane.var_normal_m2 = variances[0];
+    plane.var_minor_m2 = variances[1];
+    plane.var_major_m2 = variances[2];
   }
   void Add(const Surfel& s, uint32_t index) {
-    if (members.empty()) normal = s.normal;
-    sum.Add(s);
+    if (members.empty()) plane.normal = s.normal;
+    plane.Add(s);
     members.push_back(index);
-    if (sum.count >= kRefitGrowth * fitted_count) Fit();
+    if (plane.count >= kRefitGrowth * plane.fitted_count) Fit();
   }
-  [[nodiscard]] double SignedDistance(const Eigen::Vector3d& p) const { return normal.dot(p - sum.mean); }
+  // Whether a surfel continues the plane: no step, as far as the plane is known there and the surfel's place is known.
+  [[nodiscard]] bool Takes(const Surfel& s) const {
+    if (s.normal.dot(plane.normal) < kSameNormalCos) return false;
+    const double variance_m2 = plane.DistanceVariance(s.mean, 0) - plane.var_normal_m2 + s.var_normal_m2 / s.count;
+    return std::abs(plane.SignedDistance(s.mean)) <= kMaxStep_m + 3 * std::sqrt(variance_m2);
+  }
 };
 
-Region GrowRegion(const SurfelMap& map, uint32_t seed, double max_distance_m, std::vector<bool>* taken) {
+Region GrowRegion(const SurfelMap& map, uint32_t seed, std::vector<bool>* taken) {
   const std::vector<Surfel>& surfels = map.surfels();
   Region region;
   region.Add(surfels[seed], seed);
@@ -56,17 +67,16 @@ Region GrowRegion(const SurfelMap& map, uint32_t seed, double max_distance_m, st
     around.clear();
     map.Around(surfels[region.members[next]].mean, &around);
     for (const uint32_t i : around) {
-      const Surfel& s = surfels[i];
-      if ((*taken)[i] || s.normal.dot(region.normal) < kSameNormalCos || std::abs(region.SignedDistance(s.mean)) > max_distance_m) continue;
+      if ((*taken)[i] || !region.Takes(surfels[i])) continue;
       (*taken)[i] = true;
-      region.Add(s, i);
+      region.Add(surfels[i], i);
     }
   }
   region.Fit();
   return region;
 }
 
-std::vector<Region> GrowRegions(const SurfelMap& map, double max_distance_m) {
+std::vector<Region> GrowRegions(const SurfelMap& map) {
   const std::vector<Surfel>& surfels = map.surfels();
   std::vector<uint32_t> seeds;
   for (uint32_t i = 0; i < surfels.size(); ++i) {
@@ -76,9 +86,9 @@ std::vector<Region> GrowRegions(const SurfelMap& map, double max_distance_m) {
   std::vector<bool> taken(surfels.size(), false);
   std::vector<Region> regions;
   for (const uint32_t seed : seeds) {
-    if (!taken[seed]) regions.push_back(GrowRegion(map, seed, max_distance_m, &taken));
+    if (!taken[seed]) regions.push_back(GrowRegion(map, seed, &taken));
   }
-  std::stable_sort(regions.begin(), regions.end(), [](const Region& a, const Region& b) { return a.sum.count > b.sum.count; });
+  std::stable_sort(regions.begin(), regions.end(), [](const Region& a, const Region& b) { return a.plane.count > b.plane.count; });
   return regions;
 }
 
@@ -115,14 +125,15 @@ struct Candidate {
 std::vector<Candidate> MakeCandidates(const std::vector<Region>& regions, const Eigen::Vector3d& up, const MapperOptions& options) {
   std::vector<Candidate> candidates;
   for (const Region& region : regions) {
-    const std::optional<SurfaceKind> kind = KindOf(region.normal, up);
-    if (!kind || region.rms_m > kSurfelBandSigmas * options.plane_sigma_m) continue;
+    const double rms_m = std::sqrt(region.plane.var_normal_m2);
+    const std::optional<SurfaceKind> kind = KindOf(region.plane.normal, up);
+    if (!kind || rms_m > kMaxRmsSigmas * options.plane_sigma_m) continue;
     Candidate c;
     c.region = &region;
     c.segment.kind = *kind;
-    c.segment.plane = {region.normal, -region.normal.dot(region.sum.mean)};
+    c.segment.plane = {region.plane.normal, -region.plane.normal.dot(region.plane.mean)};
     c.axes = AxesOf(c.segment.plane, *kind, up);
-    c.band_m = kBandSigmas * std::clamp(region.rms_m, kMinSigma_m, options.plane_sigma_m);
+    c.band_m = kBandSigmas * std::clamp(rms_m, kMinSigma_m, options.plane_sigma_m);
     candidates.push_back(std::move(c));
   }
   return candidates;
@@ -155,24 +166,43 @@ class Reach {
   std::vector<std::vector<uint32_t>> candidates_;
 };
 
+// Where two planes meet, small "planes" fit the corner's rounded noise: a point that may be a large segment's is never a small one's.
 void AssignPoints(const View& view, const Reach& reach, std::vector<Candidate>* candidates) {
+  struct Match {
+    Candidate* candidate;
+    double distance_m;
+  };
+  std::vector<Match> matches;
   for (const Eigen::Vector3f& point : view.points) {
     const Eigen::Vector3d p = point.cast<double>();
     const std::vector<uint32_t>* near = reach.At(p);
     if (near == nullptr) continue;
     const Eigen::Vector3d ray = view.sensor - p;
     const double min_toward_m = kMinCosIncidence * ray.norm();
-    Candidate* best = nullptr;
-    double best_distance_m = std::numeric_limits<double>::infinity();
+    matches.clear();
+    double largest = 0;
     for (const uint32_t i : *near) {
       Candidate& c = (*candidates)[i];
       const double distance_m = std::abs(c.segment.plane.SignedDistance(p));
-      if (distance_m > c.band_m || distance_m >= best_distance_m || c.segment.plane.n.dot(ray) < min_toward_m) continue;
-      best = &c;
-      best_distance_m = distance_m;
+      if (distance_m > c.band_m || c.segment.plane.n.dot(ray) < min_toward_m) continue;
+      matches.push_back({&c, distance_m});
+      largest = std::max(largest, c.region->plane.count);
     }
-    if (best != nullptr) best->Add(p);
+    Match best{nullptr, std::numeric_limits<double>::infinity()};
+    for (const Match& m : matches) {
+      if (m.candidate->region->plane.count >= kSmallRegion * largest && m.distance_m < best.distance_m) best = m;
+    }
+    if (best.candidate != nullptr) best.candidate->Add(p);
   }
+}
+
+int MinCellCount(const Candidate& c) {
+  std::vector<int> counts;
+  counts.reserve(c.cells.size());
+  for (const Candidate::Cell& cell : c.cells) counts.push_back(cell.count);
+  const auto middle = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2);
+  std::nth_element(counts.begin(), middle, counts.end());
+  return std::max(kMinCellPoints, static_cast<int>(kMinCellShare * *middle));
 }
 
 // The finished segment, or none if it is too small.
@@ -180,8 +210,9 @@ std::optional<Segment> Finish(Candidate& c, const MapperOptions& options) {
   if (c.segment.stats.count() < options.min_segment_points) return std::nullopt;
   c.segment.plane = FitPlane(c.segment.stats, c.segment.plane.n).plane;
   Eigen::Vector2d lo = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity()), hi = -lo;
+  const int min_count = MinCellCount(c);
   for (const Candidate::Cell& cell : c.cells) {
-    if (cell.count < kMinCellPoints) continue;
+    if (cell.count < min_count) continue;
     const Eigen::Vector3d mean = cell.sum / cell.count;
     const Eigen::Vector2d at(c.axes.along.dot(mean), c.axes.across.dot(mean));
     lo = lo.cwiseMin(at);
@@ -211,7 +242,7 @@ PlaneAxes AxesOf(const Plane& plane, SurfaceKind kind, const Eigen::Vector3d& up
 
 std::vector<Segment> ExtractSegments(const KeyframeWindow& window, const MapperOptions& options) {
   const Eigen::Vector3d up = window.T_odom_kf().linear().transpose() * Eigen::Vector3d::UnitZ();
-  const std::vector<Region> regions = GrowRegions(window.surfels(), kSurfelBandSigmas * options.plane_sigma_m);
+  const std::vector<Region> regions = GrowRegions(window.surfels());
   std::vector<Candidate> candidates = MakeCandidates(regions, up, options);
   const Reach reach(candidates, window.surfels());
   for (const View& view : window.views()) AssignPoints(view, reach, &candidates);

@@ -14,10 +14,14 @@ namespace plumb::runtime {
 namespace {
 
 constexpr double kSin15 = 0.25881904510252074, kCos15 = 0.9659258262890683;
-constexpr double kSameNormalCos = 0.94;     // 20 degrees between a surfel and its region
-constexpr double kMaxStep_m = 0.02;         // between a surfel and its region's plane, beyond their uncertainties: door leaves are recessed by little more
+constexpr double kMaxStep_m = 0.012;        // between a surfel and its region's plane, beyond their uncertainties, ...
+constexpr double kMaxBend_rad = 0.05;       // ... and between their normals
+constexpr double kMaxUnevenness_m = 0.005;  // of a plane's surfels
+constexpr double kPartRadius_m = 0.8, kPlaneBand_m = 0.01;
+constexpr int kGrowRounds = 3;              // what uneven regions set free grows again
 constexpr double kMaxRmsSigmas = 1.5;       // of a region
 constexpr double kBandSigmas = 3.0;         // between a point and its segment's plane
+constexpr int kReach = 2;                   // voxels from a segment's surfels to points that may be its
 constexpr double kMinCosIncidence = 0.15;   // flatter rays are biased by the beam's width
 constexpr double kMinSigma_m = 0.01;
 constexpr double kMinAcross_m = 0.2;        // height of a wall segment
@@ -49,9 +53,10 @@ struct Region {
     members.push_back(index);
     if (plane.count >= kRefitGrowth * plane.fitted_count) Fit();
   }
-  // Whether a surfel continues the plane: no step, as far as the plane is known there and the surfel's place is known.
+  // Whether a surfel continues the plane: no step and no bend, as far as both are known. A surfel across the step at a recessed door bends.
   [[nodiscard]] bool Takes(const Surfel& s) const {
-    if (s.normal.dot(plane.normal) < kSameNormalCos) return false;
+    const double angle_variance = s.NormalVariance(0) + plane.NormalVariance(0);
+    if (std::acos(std::min(1.0, s.normal.dot(plane.normal))) > kMaxBend_rad + 3 * std::sqrt(angle_variance)) return false;
     const double variance_m2 = plane.DistanceVariance(s.mean, 0) - plane.var_normal_m2 + s.var_normal_m2 / s.count;
     return std::abs(plane.SignedDistance(s.mean)) <= kMaxStep_m + 3 * std::sqrt(variance_m2);
   }
@@ -76,6 +81,48 @@ Region GrowRegion(const SurfelMap& map, uint32_t seed, std::vector<bool>* taken)
   return region;
 }
 
+// Mean square distance of the members' means to the region's plane: what is left when their points' noise has averaged out.
+double Unevenness(const Region& region, const SurfelMap& map) {
+  double sum_m2 = 0;
+  for (const uint32_t i : region.members) {
+    const Surfel& s = map.surfels()[i];
+    const double distance_m = region.plane.SignedDistance(s.mean);
+    sum_m2 += s.count * distance_m * distance_m;
+  }
+  return std::sqrt(sum_m2 / region.plane.count);
+}
+
+// A region of the members that pass.
+template <class Keep>
+Region Part(const Region& region, const SurfelMap& map, const Keep& keep) {
+  Region part;
+  part.plane.fitted_count = std::numeric_limits<double>::infinity();  // fitted once, below
+  for (const uint32_t i : region.members) {
+    if (keep(map.surfels()[i])) part.Add(map.surfels()[i], i);
+  }
+  if (!part.members.empty()) part.Fit();
+  return part;
+}
+
+// A wall and a door leaf a few centimetres behind it can grow into one region whose plane leans between them. Of an uneven region only the
+// largest plane that some part of it spans is kept; the other surfels are free again.
+void KeepLargestPlane(const SurfelMap& map, Region* region, std::vector<bool>* taken) {
+  if (Unevenness(*region, map) <= kMaxUnevenness_m) return;
+  Region best;
+  for (const uint32_t center : region->members) {
+    const Eigen::Vector3d at = map.surfels()[center].mean;
+    Region part = Part(*region, map, [&](const Surfel& s) { return (s.mean - at).norm() < kPartRadius_m; });
+    for (int round = 0; round < 3; ++round) {
+      part = Part(*region, map, [&](const Surfel& s) { return std::abs(part.plane.SignedDistance(s.mean)) < kPlaneBand_m; });
+    }
+    if (part.plane.count > best.plane.count) best = std::move(part);
+  }
+  if (best.members.empty()) return;
+  for (const uint32_t i : region->members) (*taken)[i] = false;
+  for (const uint32_t i : best.members) (*taken)[i] = true;
+  *region = std::move(best);
+}
+
 std::vector<Region> GrowRegions(const SurfelMap& map) {
   const std::vector<Surfel>& surfels = map.surfels();
   std::vector<uint32_t> seeds;
@@ -85,8 +132,12 @@ std::vector<Region> GrowRegions(const SurfelMap& map) {
   std::stable_sort(seeds.begin(), seeds.end(), [&](uint32_t a, uint32_t b) { return surfels[a].count > surfels[b].count; });
   std::vector<bool> taken(surfels.size(), false);
   std::vector<Region> regions;
-  for (const uint32_t seed : seeds) {
-    if (!taken[seed]) regions.push_back(GrowRegion(map, seed, &taken));
+  for (int round = 0; round < kGrowRounds; ++round) {
+    for (const uint32_t seed : seeds) {
+      if (taken[seed]) continue;
+      regions.push_back(GrowRegion(map, seed, &taken));
+      KeepLargestPlane(map, &regions.back(), &taken);
+    }
   }
   std::stable_sort(regions.begin(), regions.end(), [](const Region& a, const Region& b) { return a.plane.count > b.plane.count; });
   return regions;
@@ -139,14 +190,18 @@ std::vector<Candidate> MakeCandidates(const std::vector<Region>& regions, const 
   return candidates;
 }
 
-// Which candidates may own points of which voxels: those with a surfel there or next to there.
+// Which candidates may own points of which voxels: those with a surfel near there.
 class Reach {
  public:
   Reach(const std::vector<Candidate>& candidates, const SurfelMap& map) : map_(map) {
     for (uint32_t c = 0; c < candidates.size(); ++c) {
       for (const uint32_t member : candidates[c].region->members) {
         const Eigen::Vector3d g = map.GridPosition(map.surfels()[member].mean);
-        for (int k = 0; k < 27; ++k) AddTo(VoxelKey(g + NeighbourOffset(k)), c);
+        for (int x = -kReach; x <= kReach; ++x) {
+          for (int y = -kReach; y <= kReach; ++y) {
+            for (int z = -kReach; z <= kReach; ++z) AddTo(VoxelKey(g + Eigen::Vector3d(x, y, z)), c);
+          }
+        }
       }
     }
   }
@@ -171,6 +226,7 @@ void AssignPoints(const View& view, const Reach& reach, std::vector<Candidate>* 
   struct Match {
     Candidate* candidate;
     double distance_m;
+    bool steep;
   };
   std::vector<Match> matches;
   for (const Eigen::Vector3f& point : view.points) {
@@ -184,15 +240,16 @@ void AssignPoints(const View& view, const Reach& reach, std::vector<Candidate>* 
     for (const uint32_t i : *near) {
       Candidate& c = (*candidates)[i];
       const double distance_m = std::abs(c.segment.plane.SignedDistance(p));
-      if (distance_m > c.band_m || c.segment.plane.n.dot(ray) < min_toward_m) continue;
-      matches.push_back({&c, distance_m});
+      const double toward_m = c.segment.plane.n.dot(ray);
+      if (distance_m > c.band_m || toward_m < 0) continue;
+      matches.push_back({&c, distance_m, toward_m >= min_toward_m});
       largest = std::max(largest, c.region->plane.count);
     }
-    Match best{nullptr, std::numeric_limits<double>::infinity()};
+    Match best{nullptr, std::numeric_limits<double>::infinity(), false};
     for (const Match& m : matches) {
       if (m.candidate->region->plane.count >= kSmallRegion * largest && m.distance_m < best.distance_m) best = m;
     }
-    if (best.candidate != nullptr) best.candidate->Add(p);
+    if (best.candidate != nullptr && best.steep) best.candidate->Add(p);
   }
 }
 
@@ -219,7 +276,8 @@ std::optional<Segment> Finish(Candidate& c, const MapperOptions& options) {
     hi = hi.cwiseMax(at);
     c.segment.cells.push_back(mean.cast<float>());
   }
-  if (c.segment.cells.empty()) return std::nullopt;
+  const double area_m2 = kCell_m * kCell_m * static_cast<double>(c.segment.cells.size());
+  if (c.segment.cells.empty() || area_m2 < options.min_segment_extent_m * options.min_segment_extent_m) return std::nullopt;
   const Eigen::Vector2d size_m = hi - lo + Eigen::Vector2d::Constant(kCell_m);
   const double min_across_m = c.segment.kind == SurfaceKind::kWall ? std::min(kMinAcross_m, options.min_segment_extent_m) : options.min_segment_extent_m;
   if (size_m.x() < options.min_segment_extent_m || size_m.y() < min_across_m) return std::nullopt;

@@ -25,7 +25,8 @@ constexpr int kReach = 2;                   // voxels from a segment's surfels t
 constexpr double kMinCosIncidence = 0.15;   // flatter rays are biased by the beam's width
 constexpr double kMinSigma_m = 0.01;
 constexpr double kMinAcross_m = 0.2;        // height of a wall segment
-constexpr double kSmallRegion = 0.2;        // of the points of another region that wants the same point
+constexpr size_t kExplainStep = 3;          // every third point is enough to tell which planes are needed
+constexpr double kExplainSigmas = 2.0, kMinUnexplained = 0.5;
 constexpr int kMinCellPoints = 2;
 constexpr double kMinCellShare = 0.25;      // of the median cell's points: less is noise beyond an edge
 constexpr double kRefitGrowth = 1.1;
@@ -155,7 +156,8 @@ struct Candidate {
   Segment segment;
   const Region* region = nullptr;
   PlaneAxes axes;
-  double band_m = 0;
+  double sigma_m = 0;
+  bool stays = true;
   struct Cell {
     int count = 0;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -184,7 +186,7 @@ std::vector<Candidate> MakeCandidates(const std::vector<Region>& regions, const 
     c.segment.kind = *kind;
     c.segment.plane = {region.plane.normal, -region.plane.normal.dot(region.plane.mean)};
     c.axes = AxesOf(c.segment.plane, *kind, up);
-    c.band_m = kBandSigmas * std::clamp(rms_m, kMinSigma_m, options.plane_sigma_m);
+    c.sigma_m = std::clamp(rms_m, kMinSigma_m, options.plane_sigma_m);
     candidates.push_back(std::move(c));
   }
   return candidates;
@@ -221,35 +223,57 @@ class Reach {
   std::vector<std::vector<uint32_t>> candidates_;
 };
 
-// Where two planes meet, small "planes" fit the corner's rounded noise: a point that may be a large segment's is never a small one's.
+struct Match {
+  uint32_t candidate;
+  double distance_m;
+  bool steep;  // seen steeply enough to be measured
+};
+
+// The candidates in whose bands p is, on the side they are seen from.
+void FindMatches(const Eigen::Vector3d& p, const Eigen::Vector3d& sensor, const Reach& reach, const std::vector<Candidate>& candidates,
+                 double band_sigmas, std::vector<Match>* matches) {
+  matches->clear();
+  const std::vector<uint32_t>* near = reach.At(p);
+  if (near == nullptr) return;
+  const Eigen::Vector3d ray = sensor - p;
+  for (const uint32_t i : *near) {
+    const Candidate& c = candidates[i];
+    const double distance_m = std::abs(c.segment.plane.SignedDistance(p)), toward_m = c.segment.plane.n.dot(ray);
+    if (distance_m <= band_sigmas * c.sigma_m && toward_m > 0) matches->push_back({i, distance_m, toward_m >= kMinCosIncidence * ray.norm()});
+  }
+}
+
+// Where two planes meet or step, small "planes" fit the noise between them. From the largest on, a candidate stays if enough of its points are
+// not already explained by those that stay.
+void KeepUnexplained(const KeyframeWindow& window, const Reach& reach, std::vector<Candidate>* candidates) {
+  std::vector<std::vector<uint32_t>> points_of(candidates->size());
+  std::vector<Match> matches;
+  uint32_t num_points = 0;
+  for (const View& view : window.views()) {
+    for (size_t i = 0; i < view.points.size(); i += kExplainStep, ++num_points) {
+      FindMatches(view.points[i].cast<double>(), view.sensor, reach, *candidates, kExplainSigmas, &matches);
+      for (const Match& m : matches) points_of[m.candidate].push_back(num_points);
+    }
+  }
+  std::vector<bool> explained(num_points, false);
+  for (size_t c = 0; c < candidates->size(); ++c) {
+    const auto unexplained = std::count_if(points_of[c].begin(), points_of[c].end(), [&](uint32_t i) { return !explained[i]; });
+    (*candidates)[c].stays = static_cast<double>(unexplained) >= kMinUnexplained * static_cast<double>(points_of[c].size()) && unexplained > 0;
+    if (!(*candidates)[c].stays) continue;
+    for (const uint32_t i : points_of[c]) explained[i] = true;
+  }
+}
+
 void AssignPoints(const View& view, const Reach& reach, std::vector<Candidate>* candidates) {
-  struct Match {
-    Candidate* candidate;
-    double distance_m;
-    bool steep;
-  };
   std::vector<Match> matches;
   for (const Eigen::Vector3f& point : view.points) {
     const Eigen::Vector3d p = point.cast<double>();
-    const std::vector<uint32_t>* near = reach.At(p);
-    if (near == nullptr) continue;
-    const Eigen::Vector3d ray = view.sensor - p;
-    const double min_toward_m = kMinCosIncidence * ray.norm();
-    matches.clear();
-    double largest = 0;
-    for (const uint32_t i : *near) {
-      Candidate& c = (*candidates)[i];
-      const double distance_m = std::abs(c.segment.plane.SignedDistance(p));
-      const double toward_m = c.segment.plane.n.dot(ray);
-      if (distance_m > c.band_m || toward_m < 0) continue;
-      matches.push_back({&c, distance_m, toward_m >= min_toward_m});
-      largest = std::max(largest, c.region->plane.count);
-    }
-    Match best{nullptr, std::numeric_limits<double>::infinity(), false};
+    FindMatches(p, view.sensor, reach, *candidates, kBandSigmas, &matches);
+    const Match* best = nullptr;
     for (const Match& m : matches) {
-      if (m.candidate->region->plane.count >= kSmallRegion * largest && m.distance_m < best.distance_m) best = m;
+      if ((*candidates)[m.candidate].stays && (best == nullptr || m.distance_m < best->distance_m)) best = &m;
     }
-    if (best.candidate != nullptr && best.steep) best.candidate->Add(p);
+    if (best != nullptr && best->steep) (*candidates)[best->candidate].Add(p);
   }
 }
 
@@ -303,6 +327,7 @@ std::vector<Segment> ExtractSegments(const KeyframeWindow& window, const MapperO
   const std::vector<Region> regions = GrowRegions(window.surfels());
   std::vector<Candidate> candidates = MakeCandidates(regions, up, options);
   const Reach reach(candidates, window.surfels());
+  KeepUnexplained(window, reach, &candidates);
   for (const View& view : window.views()) AssignPoints(view, reach, &candidates);
   std::vector<Segment> segments;
   for (Candidate& c : candidates) {

@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -27,7 +28,8 @@ constexpr double kMinSigma_m = 0.01;
 constexpr double kMinAcross_m = 0.2;        // height of a wall segment
 constexpr size_t kExplainStep = 3;          // every third point is enough to tell which planes are needed
 constexpr double kExplainSigmas = 2.0, kMinUnexplained = 0.5;
-constexpr int kMinCellPoints = 2;
+constexpr std::array<double, 3> kCellOff_m = {0.02, 0.015, 0.01};  // of a cell's mean from the plane, beyond its noise; by round
+constexpr double kMinCellPoints = 2;
 constexpr double kMinCellShare = 0.25;      // of the median cell's points: less is noise beyond an edge
 constexpr double kRefitGrowth = 1.1;
 
@@ -158,20 +160,14 @@ struct Candidate {
   PlaneAxes axes;
   double sigma_m = 0;
   bool stays = true;
-  struct Cell {
-    int count = 0;
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  };
   VoxelIndex cell_index;
-  std::vector<Cell> cells;
+  std::vector<PlaneStats> cells;  // each kCell_m square
 
   void Add(const Eigen::Vector3d& p) {
-    segment.stats.Add(p);
     const double u = axes.along.dot(p) / kCell_m, v = axes.across.dot(p) / kCell_m;
     const uint32_t cell = cell_index.Insert(VoxelKey({u, v, 0})).first;
     if (cell == cells.size()) cells.emplace_back();
-    ++cells[cell].count;
-    cells[cell].sum += p;
+    cells[cell].Add(p);
   }
 };
 
@@ -277,24 +273,40 @@ void AssignPoints(const View& view, const Reach& reach, std::vector<Candidate>* 
   }
 }
 
-int MinCellCount(const Candidate& c) {
-  std::vector<int> counts;
-  counts.reserve(c.cells.size());
-  for (const Candidate::Cell& cell : c.cells) counts.push_back(cell.count);
+double MinCellCount(const std::vector<PlaneStats>& cells) {
+  std::vector<double> counts;
+  counts.reserve(cells.size());
+  for (const PlaneStats& cell : cells) counts.push_back(cell.count());
   const auto middle = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2);
   std::nth_element(counts.begin(), middle, counts.end());
-  return std::max(kMinCellPoints, static_cast<int>(kMinCellShare * *middle));
+  return std::max(kMinCellPoints, kMinCellShare * *middle);
+}
+
+// Fits the plane to the cells that lie on it and drops the others. A single point tells no door leaf from the wall 5 cm before it, a cell's mean does.
+void FitToCells(Candidate* c) {
+  for (const double off_m : kCellOff_m) {
+    PlaneStats stats;
+    for (const PlaneStats& cell : c->cells) {
+      const double limit_m = off_m + kBandSigmas * c->sigma_m / std::sqrt(cell.count());
+      if (std::abs(c->segment.plane.SignedDistance(cell.centroid())) <= limit_m) stats.Add(cell);
+    }
+    if (stats.count() < 3) return;
+    c->segment.stats = stats;
+    c->segment.plane = FitPlane(stats, c->segment.plane.n).plane;
+  }
 }
 
 // The finished segment, or none if it is too small.
 std::optional<Segment> Finish(Candidate& c, const MapperOptions& options) {
+  if (c.cells.empty()) return std::nullopt;
+  FitToCells(&c);
   if (c.segment.stats.count() < options.min_segment_points) return std::nullopt;
-  c.segment.plane = FitPlane(c.segment.stats, c.segment.plane.n).plane;
   Eigen::Vector2d lo = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity()), hi = -lo;
-  const int min_count = MinCellCount(c);
-  for (const Candidate::Cell& cell : c.cells) {
-    if (cell.count < min_count) continue;
-    const Eigen::Vector3d mean = cell.sum / cell.count;
+  const double min_count = MinCellCount(c.cells);
+  for (const PlaneStats& cell : c.cells) {
+    const Eigen::Vector3d mean = cell.centroid();
+    const double limit_m = kCellOff_m.back() + kBandSigmas * c.sigma_m / std::sqrt(cell.count());
+    if (cell.count() < min_count || std::abs(c.segment.plane.SignedDistance(mean)) > limit_m) continue;
     const Eigen::Vector2d at(c.axes.along.dot(mean), c.axes.across.dot(mean));
     lo = lo.cwiseMin(at);
     hi = hi.cwiseMax(at);

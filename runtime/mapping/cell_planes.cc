@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <optional>
 
 #include "runtime/mapping/plane_fit.h"
+#include "runtime/odometry/voxel_index.h"
 
 namespace plumb::runtime {
 namespace {
@@ -15,8 +17,11 @@ constexpr double kOnSigmas = 2.5;          // a cell is on a plane within this
 constexpr double kCostSigmas = 2.0;        // a cell further off costs no more than at this: it may be another plane's
 constexpr int kMaxPlanes = 4;
 constexpr size_t kMaxHypotheses = 48;
-constexpr double kPatchRadius_m = 0.5;     // of the cells that a hypothesis is fitted to
-constexpr size_t kMinPatchCells = 8;
+constexpr double kSquare_m = 0.3;          // of joined cells
+constexpr double kMaxGap_m = 0.2;
+constexpr double kMinShare = 0.1;          // of a rough plane's cells that a plane must have
+constexpr double kPatchRadius_m = 0.6;     // of the cells that a hypothesis is fitted to
+constexpr size_t kMinPatchCells = 6;
 constexpr int kRefinements = 3;
 constexpr double kFlatShare = 0.95;        // of the cells on the common fit: no need to look for steps
 constexpr double kMinAcross_m = 0.2;       // height of a wall segment
@@ -31,6 +36,10 @@ struct Cell {
   [[nodiscard]] double Offset(const Plane& plane) const { return std::abs(plane.SignedDistance(mean)) / sigma_m; }
   [[nodiscard]] bool On(const Plane& plane) const { return Offset(plane) <= kOnSigmas; }
 };
+
+Cell MakeCell(const PlaneStats& stats, double sigma_m) {
+  return {&stats, stats.centroid(), std::sqrt(kFlatness_m * kFlatness_m + sigma_m * sigma_m / stats.count())};
+}
 
 // Sum over the cells that pass, and their number.
 struct CellSum {
@@ -92,18 +101,66 @@ double MinCellCount(const std::vector<Cell>& cells) {
   return std::max(kMinCellPoints, kMinCellShare * *middle);
 }
 
-// The segment of the cells on a plane, or none if it is too small.
-std::optional<Segment> SegmentOf(const std::vector<Cell>& cells, SurfaceKind kind, const Plane& plane, const PlaneAxes& axes,
-                                 const MapperOptions& options) {
+// Cells joined in squares of kSquare_m: their means say more surely which plane they are on.
+struct Squares {
+  std::vector<PlaneStats> stats;
+  std::vector<Cell> cells;
+};
+Squares Joined(const std::vector<Cell>& cells, const PlaneAxes& axes, double sigma_m) {
+  Squares squares;
+  VoxelIndex index;
+  for (const Cell& cell : cells) {
+    const uint32_t i = index.Insert(VoxelKey({axes.along.dot(cell.mean) / kSquare_m, axes.across.dot(cell.mean) / kSquare_m, 0})).first;
+    if (i == squares.stats.size()) squares.stats.emplace_back();
+    squares.stats[i].Add(*cell.stats);
+  }
+  for (const PlaneStats& stats : squares.stats) squares.cells.push_back(MakeCell(stats, sigma_m));
+  return squares;
+}
+
+// The largest group of cells with no gap above kMaxGap_m between neighbours.
+std::vector<Cell> LargestGroup(const std::vector<Cell>& cells, const PlaneAxes& axes) {
+  VoxelIndex index;
+  std::vector<Eigen::Vector2d> squares;
+  const auto at = [&](const Cell& cell) { return Eigen::Vector2d(axes.along.dot(cell.mean) / kMaxGap_m, axes.across.dot(cell.mean) / kMaxGap_m); };
+  for (const Cell& cell : cells) {
+    if (index.Insert(VoxelKey({at(cell).x(), at(cell).y(), 0})).second) squares.push_back(at(cell));
+  }
+  std::vector<int> group(squares.size(), -1);
+  int num_groups = 0;
+  for (size_t seed = 0; seed < squares.size(); ++seed) {
+    if (group[seed] >= 0) continue;
+    std::vector<size_t> queue = {seed};
+    group[seed] = num_groups;
+    while (!queue.empty()) {
+      const Eigen::Vector2d from = squares[queue.back()];
+      queue.pop_back();
+      for (int k = 0; k < 9; ++k) {
+        const uint32_t next = index.Find(VoxelKey({from.x() + k % 3 - 1, from.y() + k / 3 - 1, 0}));
+        if (next == VoxelIndex::kNone || group[next] >= 0) continue;
+        group[next] = num_groups;
+        queue.push_back(next);
+      }
+    }
+    ++num_groups;
+  }
+  std::vector<std::vector<Cell>> groups(static_cast<size_t>(num_groups));
+  for (const Cell& cell : cells) groups[static_cast<size_t>(group[index.Find(VoxelKey({at(cell).x(), at(cell).y(), 0}))])].push_back(cell);
+  const auto largest = std::max_element(groups.begin(), groups.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
+  return largest == groups.end() ? std::vector<Cell>() : *largest;
+}
+
+// The segment of cells on a plane, or none if it is too small.
+std::optional<Segment> SegmentOf(const std::vector<Cell>& cells, SurfaceKind kind, const Eigen::Vector3d& normal, const PlaneAxes& axes,
+                                 double min_count, const MapperOptions& options) {
   Segment segment;
   segment.kind = kind;
-  segment.stats = SumOf(cells, [&](const Cell& cell) { return cell.On(plane); }).stats;
+  segment.stats = SumOf(cells, [](const Cell&) { return true; }).stats;
   if (segment.stats.count() < options.min_segment_points) return std::nullopt;
-  segment.plane = FitPlane(segment.stats, plane.n).plane;
+  segment.plane = FitPlane(segment.stats, normal).plane;
   Eigen::Vector2d lo = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity()), hi = -lo;
-  const double min_count = MinCellCount(cells);
   for (const Cell& cell : cells) {
-    if (!cell.On(plane) || cell.stats->count() < min_count) continue;
+    if (cell.stats->count() < min_count) continue;
     const Eigen::Vector2d at(axes.along.dot(cell.mean), axes.across.dot(cell.mean));
     lo = lo.cwiseMin(at);
     hi = hi.cwiseMax(at);
@@ -135,16 +192,22 @@ std::vector<Segment> SplitCells(const std::vector<PlaneStats>& cells, SurfaceKin
                                 double sigma_m, const MapperOptions& options) {
   std::vector<Cell> remaining;
   for (const PlaneStats& cell : cells) {
-    if (cell.count() < kMinCellPoints) continue;
-    remaining.push_back({&cell, cell.centroid(), std::sqrt(kFlatness_m * kFlatness_m + sigma_m * sigma_m / cell.count())});
+    if (cell.count() >= kMinCellPoints) remaining.push_back(MakeCell(cell, sigma_m));
   }
+  if (remaining.empty()) return {};
+  const double min_count = MinCellCount(remaining);
+  const size_t min_cells = std::max<size_t>(kMinPatchCells, static_cast<size_t>(kMinShare * static_cast<double>(remaining.size())));
   std::vector<Segment> segments;
-  for (int i = 0; i < kMaxPlanes && remaining.size() >= kMinPatchCells; ++i) {
-    const Plane plane = BestPlane(remaining, normal);
-    if (std::optional<Segment> segment = SegmentOf(remaining, kind, plane, axes, options)) segments.push_back(std::move(*segment));
-    const size_t before = remaining.size();
+  for (int i = 0; i < kMaxPlanes && remaining.size() >= min_cells; ++i) {
+    const Squares squares = Joined(remaining, axes, sigma_m);
+    const Plane plane = BestPlane(squares.cells, normal);
+    std::vector<Cell> on;
+    std::copy_if(remaining.begin(), remaining.end(), std::back_inserter(on), [&](const Cell& cell) { return cell.On(plane); });
+    // What is left by a first plane is often just its roughest cells, strewn all over.
+    if (i > 0) on = LargestGroup(on, axes);
+    if (on.size() < min_cells) break;
+    if (std::optional<Segment> segment = SegmentOf(on, kind, normal, axes, min_count, options)) segments.push_back(std::move(*segment));
     std::erase_if(remaining, [&](const Cell& cell) { return cell.On(plane); });
-    if (remaining.size() == before) break;
   }
   return segments;
 }

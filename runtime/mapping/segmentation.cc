@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kSin15 = 0.25881904510252074, kCos15 = 0.9659258262890683;
 constexpr double kMaxStep_m = 0.012;        // between a surfel and its region's plane, beyond their uncertainties, ...
-constexpr double kMaxBend_rad = 0.05;       // ... and between their normals
+constexpr double kMaxBend_rad = 0.03;       // ... and between their normals
 constexpr double kRefitGrowth = 1.1;
 constexpr double kMaxRmsSigmas = 1.5;       // of a region
 constexpr double kBandSigmas = 3.0;         // between a point and its segment's plane

@@ -11,6 +11,7 @@ namespace {
 constexpr double kBand_m = 0.06;           // surfels of one floor lie within this of its plane
 constexpr double kSameNormalCos = 0.99;    // 8 degrees
 constexpr double kMinFloorCount = 80;      // points
+constexpr double kWallSigma_rad = 0.01;    // of surfels about plumb, besides their points' noise
 constexpr double kMaxSigma_rad = 0.0087;
 constexpr int kRounds = 4;
 
@@ -45,15 +46,18 @@ std::optional<Eigen::Vector3d> FindUp(const SurfelMap& map, double max_tilt_rad)
     if (s.normal.z() < -std::cos(candidate_rad)) ceilings.push_back(&s);
     if (std::abs(s.normal.z()) < std::sin(candidate_rad)) walls.push_back(&s);
   }
-  // Cost of a direction g: floor and ceiling, sum (g . (p - mean))^2 / noise; walls, sum (g . n)^2 / variance of n in the direction of g.
+  // Cost of a direction g: floor and ceiling, sum (g . (p - mean))^2 / noise; walls, sum (g . n)^2 / variance of n in the direction of g, with
+  // a robust kernel: surfels in corners lean.
   const Eigen::Matrix3d level = (LargestLevel(floors).scatter + LargestLevel(ceilings).scatter) / noise_m2;
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
   double off_rad = candidate_rad;
   for (int round = 0; round < kRounds; ++round, off_rad = std::max(0.5 * off_rad, 0.035)) {
     Eigen::Matrix3d cost = level;
     for (const Surfel* s : walls) {
-      if (std::abs(s->normal.dot(up)) > std::sin(off_rad)) continue;
-      cost += up.dot(s->scatter * up) / noise_m2 * s->normal * s->normal.transpose();
+      const double tilt_rad = s->normal.dot(up);
+      if (std::abs(tilt_rad) > std::sin(off_rad)) continue;
+      const double variance = noise_m2 / up.dot(s->scatter * up) + kWallSigma_rad * kWallSigma_rad;
+      cost += s->normal * s->normal.transpose() / (variance + (round > 0 ? tilt_rad * tilt_rad : 0));  // Cauchy
     }
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(cost);
     if (eigen.eigenvalues()[1] < 1 / (kMaxSigma_rad * kMaxSigma_rad)) return std::nullopt;

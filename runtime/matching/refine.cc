@@ -1,0 +1,297 @@
+#include "runtime/matching/refine.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numbers>
+
+namespace plumb::runtime {
+namespace {
+
+constexpr double kMaxOffset_m = 0.6, kMaxTurn_rad = 0.35;  // a built wall further off its plan is not taken for it
+constexpr double kPairOffsetSigma_m = 0.15, kPairTurnSigma_rad = 0.1;
+constexpr double kMinOverlap_m = 0.3;
+constexpr double kWallSigma_m = 0.02;                    // map noise and building tolerance of a wall as planned
+constexpr double kTolerance_m = 3 * kWallSigma_m;        // within: as planned
+constexpr double kFullVoteLength_m = 2.0;                // longer walls do not count more: each may deviate as a whole
+constexpr double kMinFaceOverlap_m = 0.5;
+constexpr double kDirectionWidth_rad = 0.26;
+constexpr double kMinMajority = 1.5, kMinMajorityMargin = 0.5;  // in walls
+constexpr size_t kMaxConsensusGroups = 24;
+
+// The pairs of one physical wall: they move together, so they vote once.
+struct WallGroup {
+  std::vector<size_t> pairs;
+  double weight = 0;    // in walls: 1 from kFullVoteLength_m on
+  double overlap_m = 0;
+  Eigen::Vector2d normal = Eigen::Vector2d::UnitX();  // of the first pair's face
+};
+
+std::vector<WallGroup> GroupByWall(const PlanIndex& plan, const std::vector<WallPair>& pairs) {
+  std::map<uint32_t, std::vector<WallGroup>> by_wall;  // ends and bends of a wall make groups of their own
+  for (size_t i = 0; i < pairs.size(); ++i) {
+    const PlanFace& face = plan.faces()[pairs[i].face];
+    std::vector<WallGroup>& some = by_wall[face.physical_wall];
+    auto group = std::find_if(some.begin(), some.end(), [&](const WallGroup& g) { return std::abs(g.normal.dot(face.normal)) > 0.9; });
+    if (group == some.end()) {
+      group = some.insert(some.end(), WallGroup());
+      group->normal = face.normal;
+    }
+    group->pairs.push_back(i);
+    group->overlap_m += pairs[i].overlap_m;
+  }
+  std::vector<WallGroup> groups;
+  for (const auto& [wall, some] : by_wall) groups.insert(groups.end(), some.begin(), some.end());
+  for (WallGroup& group : groups) group.weight = std::min(1.0, group.overlap_m / kFullVoteLength_m);
+  std::stable_sort(groups.begin(), groups.end(), [](const WallGroup& a, const WallGroup& b) { return a.overlap_m > b.overlap_m; });
+  return groups;
+}
+
+class WallProblem {
+ public:
+  WallProblem(const PlanIndex& plan, const std::vector<WallPair>& pairs)
+      : plan_(plan), pairs_(pairs), groups_(GroupByWall(plan, pairs)) {}
+
+  [[nodiscard]] const std::vector<WallGroup>& groups() const { return groups_; }
+  [[nodiscard]] const PlanFace& face(size_t pair) const { return plan_.faces()[pairs_[pair].face]; }
+  [[nodiscard]] const WallPair& pair(size_t i) const { return pairs_[i]; }
+
+  // Mean square distance of a group's pairs at their two ends.
+  [[nodiscard]] double SquaredDistance(const WallGroup& group, const PlanarPose& pose) const {
+    double sum = 0;
+    for (size_t i : group.pairs) {
+      const double rp = FaceDistance(face(i), pose, pairs_[i].p, nullptr), rq = FaceDistance(face(i), pose, pairs_[i].q, nullptr);
+      sum += pairs_[i].overlap_m * 0.5 * (rp * rp + rq * rq);
+    }
+    return sum / group.overlap_m;
+  }
+
+  // Mean displacement of the built wall along the group's normal.
+  [[nodiscard]] double Displacement(const WallGroup& group, const PlanarPose& pose) const {
+    double sum = 0;
+    for (size_t i : group.pairs) {
+      const Eigen::Vector2d middle = 0.5 * (pairs_[i].p + pairs_[i].q);
+      const double sign = face(i).normal.dot(group.normal) < 0 ? -1 : 1;
+      sum += sign * pairs_[i].overlap_m * FaceDistance(face(i), pose, middle, nullptr);
+    }
+    return sum / group.overlap_m;
+  }
+
+  // Adds weight * (J^T J, J^T r) of a group, J by (x, y, yaw, scale).
+  void AddNormalEquations(const WallGroup& group, const PlanarPose& pose, double weight, Eigen::Matrix4d& H, Eigen::Vector4d& g) const {
+    for (size_t i : group.pairs) {
+      const double w = weight * 0.5 * pairs_[i].overlap_m / group.overlap_m;
+      for (const Eigen::Vector2d& x : {pairs_[i].p, pairs_[i].q}) {
+        Eigen::Vector4d J;
+        const double r = FaceDistance(face(i), pose, x, &J);
+        H += w * J * J.transpose();
+        g += w * J * r;
+      }
+    }
+  }
+
+ private:
+  const PlanIndex& plan_;
+  const std::vector<WallPair>& pairs_;
+  std::vector<WallGroup> groups_;
+};
+
+// Median of the pairs' own yaws, weighted by overlap.
+double MedianYaw(const PlanIndex& plan, const MapView& map, const std::vector<WallPair>& pairs, double yaw_rad) {
+  std::vector<std::pair<double, double>> off;  // from yaw_rad, weight
+  double total = 0;
+  for (const WallPair& pair : pairs) {
+    const Eigen::Vector2d &s = map.walls[pair.wall].normal, &a = plan.faces()[pair.face].normal;
+    off.emplace_back(WrapAngle(std::atan2(Cross(s, a), s.dot(a)) - yaw_rad), pair.overlap_m);
+    total += pair.overlap_m;
+  }
+  std::sort(off.begin(), off.end());
+  double below = 0;
+  for (const auto& [off_rad, weight] : off) {
+    below += weight;
+    if (below >= 0.5 * total) return WrapAngle(yaw_rad + off_rad);
+  }
+  return yaw_rad;
+}
+
+// Of the translations that put two non-parallel walls exactly onto their plan, and of none, the one with the smallest truncated cost.
+Eigen::Vector2d ConsensusTranslation(const WallProblem& problem, const PlanarPose& pose) {
+  const std::vector<WallGroup>& groups = problem.groups();
+  const size_t n = std::min(groups.size(), kMaxConsensusGroups);
+  std::vector<double> displacement(groups.size());
+  for (size_t i = 0; i < groups.size(); ++i) displacement[i] = problem.Displacement(groups[i], pose);
+  constexpr double kTruncation_m = 0.08;
+  const auto cost = [&](const Eigen::Vector2d& shift) {
+    double sum = 1e-3 * shift.norm();  // of equals, the nearest
+    for (size_t i = 0; i < groups.size(); ++i) {
+      const double r = (displacement[i] + groups[i].normal.dot(shift)) / kTruncation_m;
+      sum += groups[i].weight * std::min(r * r, 1.0);
+    }
+    return sum;
+  };
+  Eigen::Vector2d best = Eigen::Vector2d::Zero();
+  double best_cost = cost(best);
+  for (size_t i = 0; i < n; ++i) {
+    for (size_t j = i + 1; j < n; ++j) {
+      Eigen::Matrix2d N;
+      N << groups[i].normal.transpose(), groups[j].normal.transpose();
+      if (std::abs(N.determinant()) < 0.5) continue;
+      const Eigen::Vector2d shift = N.inverse() * Eigen::Vector2d(-displacement[i], -displacement[j]);
+      if (shift.norm() > 1.5 * kMaxOffset_m) continue;
+      const double c = cost(shift);
+      if (c < best_cost) {
+        best_cost = c;
+        best = shift;
+      }
+    }
+  }
+  return pose.t_m + best;
+}
+
+// Least squares with the Geman-McClure kernel, its width shrunk step by step to the wall tolerance.
+PlanarPose SolveGraduated(const WallProblem& problem, PlanarPose pose) {
+  for (double width_m : {0.24, 0.12, kTolerance_m, kTolerance_m}) {
+    for (int i = 0; i < 3; ++i) {
+      // A weak prior holds directions that no wall fixes.
+      Eigen::Matrix4d H = Eigen::Vector4d(1e-4, 1e-4, 1e-4, 0).asDiagonal();
+      Eigen::Vector4d g = Eigen::Vector4d::Zero();
+      for (const WallGroup& group : problem.groups()) {
+        const double kernel = 1 / (1 + problem.SquaredDistance(group, pose) / (width_m * width_m));
+        problem.AddNormalEquations(group, pose, group.weight * kernel * kernel, H, g);
+      }
+      const Eigen::Vector3d step = -H.topLeftCorner<3, 3>().ldlt().solve(g.head<3>());
+      pose.t_m += step.head<2>();
+      pose.yaw_rad = WrapAngle(pose.yaw_rad + step.z());
+      if (step.norm() < 1e-7) break;
+    }
+  }
+  return pose;
+}
+
+// Marks groups in whose direction clearly more walls stand as planned than stand together somewhere else. Only these may fix the pose:
+// elsewhere "the walls are as planned" and "they all moved" explain the map equally well.
+std::vector<bool> InMajorityDirection(const WallProblem& problem, const PlanarPose& pose) {
+  const std::vector<WallGroup>& groups = problem.groups();
+  std::vector<bool> clear(groups.size(), false), done(groups.size(), false);
+  for (size_t i = 0; i < groups.size(); ++i) {
+    if (done[i]) continue;
+    std::vector<std::pair<double, double>> walls;  // displacement along the direction, weight
+    std::vector<size_t> members;
+    for (size_t j = i; j < groups.size(); ++j) {
+      const double cosine = groups[j].normal.dot(groups[i].normal);
+      if (done[j] || std::abs(cosine) < std::cos(kDirectionWidth_rad)) continue;
+      done[j] = true;
+      members.push_back(j);
+      walls.emplace_back(std::copysign(1.0, cosine) * problem.Displacement(groups[j], pose), groups[j].weight);
+    }
+    const auto support = [&](double at_m) {
+      double sum = 0;
+      for (const auto& [x_m, w] : walls) sum += std::abs(x_m - at_m) < kTolerance_m ? w : 0;
+      return sum;
+    };
+    const double here = support(0);
+    double elsewhere = 0;
+    for (const auto& [x_m, w] : walls) {
+      if (std::abs(x_m) >= kTolerance_m) elsewhere = std::max(elsewhere, support(x_m));
+    }
+    if (here < kMinMajority || here - elsewhere < kMinMajorityMargin) continue;
+    for (size_t j : members) clear[j] = true;
+  }
+  return clear;
+}
+
+void Assess(const PlanIndex& plan, const MapView& map, const WallProblem& problem, WallFit& fit) {
+  const std::vector<WallGroup>& groups = problem.groups();
+  const std::vector<bool> clear = InMajorityDirection(problem, fit.pose);
+  Eigen::Matrix4d H = Eigen::Matrix4d::Zero(), H_clear = Eigen::Matrix4d::Zero();
+  Eigen::Vector4d g = Eigen::Vector4d::Zero(), unused = Eigen::Vector4d::Zero();
+  std::vector<double> overlap_m(plan.faces().size(), 0.0);
+  double consistent_m = 0;
+  for (size_t i = 0; i < groups.size(); ++i) {
+    if (problem.SquaredDistance(groups[i], fit.pose) > kTolerance_m * kTolerance_m) continue;
+    const double weight = groups[i].weight / (kWallSigma_m * kWallSigma_m);
+    problem.AddNormalEquations(groups[i], fit.pose, weight, H, g);
+    if (clear[i]) problem.AddNormalEquations(groups[i], fit.pose, weight, H_clear, unused);
+    for (size_t k : groups[i].pairs) {
+      overlap_m[problem.pair(k).face] += problem.pair(k).overlap_m;
+      consistent_m += problem.pair(k).overlap_m;
+    }
+  }
+  fit.consistent_faces = static_cast<int>(
+      std::count_if(overlap_m.begin(), overlap_m.end(), [](double length_m) { return length_m >= kMinFaceOverlap_m; }));
+  fit.consistent_ratio = map.wall_length_m > 0 ? std::min(1.0, consistent_m / map.wall_length_m) : 0;
+  fit.information = H_clear.topLeftCorner<3, 3>();
+  // With a weak prior, so that what no wall measures comes out as unknown instead of as a division by zero.
+  const Eigen::Matrix4d covariance = (H + Eigen::Matrix4d(Eigen::Vector4d(1e-4, 1e-4, 1e-4, 1e-4).asDiagonal())).inverse();
+  fit.sigma_scale = std::sqrt(covariance(3, 3));
+  fit.scale_error = covariance.row(3).dot(g);  // the map must shrink by -s to fit
+}
+
+}  // namespace
+
+double FaceDistance(const PlanFace& face, const PlanarPose& pose, const Eigen::Vector2d& p, Eigen::Vector4d* jacobian) {
+  const Eigen::Vector2d turned = pose.rotation() * p;
+  if (jacobian != nullptr) {
+    const Eigen::Vector2d by_yaw(-turned.y(), turned.x());
+    *jacobian << face.normal, face.normal.dot(by_yaw), face.normal.dot(turned);
+  }
+  return face.normal.dot(turned + pose.t_m) + face.d_m;
+}
+
+std::vector<WallPair> PairWalls(const PlanIndex& plan, const MapView& map, const PlanarPose& pose) {
+  std::vector<WallPair> pairs;
+  const Eigen::Matrix2d R = pose.rotation();
+  const double min_cosine = std::cos(kMaxTurn_rad);
+  for (size_t i = 0; i < map.walls.size(); ++i) {
+    const MapWall& wall = map.walls[i];
+    const Eigen::Vector2d n = R * wall.normal, start = R * wall.start + pose.t_m, end = R * wall.end + pose.t_m;
+    WallPair best;
+    double best_score = 0;
+    for (size_t k = 0; k < plan.faces().size(); ++k) {
+      const PlanFace& face = plan.faces()[k];
+      if (face.normal.dot(n) < min_cosine) continue;
+      const double rs = face.normal.dot(start) + face.d_m, re = face.normal.dot(end) + face.d_m;
+      if (std::min(rs, re) > kMaxOffset_m || std::max(rs, re) < -kMaxOffset_m) continue;
+      if (wall.z_max_m + pose.z_m < face.z_min_m || wall.z_min_m + pose.z_m > face.z_max_m) continue;
+      const double us = face.along.dot(start - face.start), ue = face.along.dot(end - face.start);
+      const double lo = std::max(us, 0.0), hi = std::min(ue, face.length_m), overlap_m = hi - lo;
+      if (overlap_m < std::max(kMinOverlap_m, 0.3 * std::min(wall.length_m, face.length_m))) continue;
+      const double a = (lo - us) / (ue - us), b = (hi - us) / (ue - us);  // along the map wall
+      const double offset = (rs + 0.5 * (a + b) * (re - rs)) / kPairOffsetSigma_m;
+      if (std::abs(offset) * kPairOffsetSigma_m > kMaxOffset_m) continue;
+      const double turn = Cross(n, face.normal) / kPairTurnSigma_rad;
+      const double score = overlap_m * std::exp(-0.5 * (offset * offset + turn * turn));
+      if (score <= best_score) continue;
+      best_score = score;
+      best = {i, k, wall.start + a * (wall.end - wall.start), wall.start + b * (wall.end - wall.start), overlap_m};
+    }
+    if (best_score > 0) pairs.push_back(best);
+  }
+  return pairs;
+}
+
+WallFit RefineOnWalls(const PlanIndex& plan, const MapView& map, const PlanarPose& start) {
+  PlanarPose pose = start;
+  for (int round = 0; round < 3; ++round) {
+    const std::vector<WallPair> pairs = PairWalls(plan, map, pose);
+    if (pairs.empty()) break;
+    const WallProblem problem(plan, pairs);
+    if (round < 2) {
+      pose.yaw_rad = MedianYaw(plan, map, pairs, pose.yaw_rad);
+      pose.t_m = ConsensusTranslation(problem, pose);
+    }
+    pose = SolveGraduated(problem, pose);
+  }
+  return AssessOnWalls(plan, map, pose);
+}
+
+WallFit AssessOnWalls(const PlanIndex& plan, const MapView& map, const PlanarPose& pose) {
+  WallFit fit;
+  fit.pose = pose;
+  fit.pairs = PairWalls(plan, map, pose);
+  Assess(plan, map, WallProblem(plan, fit.pairs), fit);
+  return fit;
+}
+
+}  // namespace plumb::runtime

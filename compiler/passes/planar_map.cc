@@ -217,9 +217,17 @@ std::vector<Ring> FaceRings(const Floor& floor, const FloorFace& face) {
   return out;
 }
 
-uint32_t FaceAt(const Floor& floor, const Eigen::Vector2d& p) {
-  for (uint32_t i = 1; i < floor.faces.size(); ++i) {
-    if (WindingNumber(FaceRings(floor, floor.faces[i]), p) != 0) return i;
+FaceLocator::FaceLocator(const Floor& floor) {
+  for (size_t i = 1; i < floor.faces.size(); ++i) {
+    std::vector<Ring> rings = FaceRings(floor, floor.faces[i]);
+    const Eigen::AlignedBox2d box = BoundingBox(rings);
+    entries_.push_back({std::move(rings), box});
+  }
+}
+
+uint32_t FaceLocator::FaceAt(const Eigen::Vector2d& p) const {
+  for (size_t i = 0; i < entries_.size(); ++i) {
+    if (entries_[i].box.contains(p) && WindingNumber(entries_[i].rings, p) != 0) return static_cast<uint32_t>(i + 1);
   }
   return 0;
 }

@@ -1,8 +1,8 @@
 #include "runtime/matching/plan_index.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace plumb::runtime {
 namespace {
@@ -11,6 +11,8 @@ constexpr double kArcStep_rad = 0.26;      // a chord this wide is within 1 % of
 constexpr double kMinFaceLength_m = 0.05;
 constexpr double kLevelMerge_m = 0.15;     // thresholds and ramps do not make a level
 constexpr size_t kMaxLevels = 16;
+constexpr double kGridCell_m = 3.0;
+constexpr double kMaxGridCells = 512;      // along one axis; the last cells of a larger plan hold the rest
 
 bool IsSoft(const Element& element) {
   if (element.material == Material::kGlass || element.doorway.valid()) return true;
@@ -51,6 +53,8 @@ PlanIndex::PlanIndex(const AGraph& plan)
       all_(plan.mesh),
       solid_(plan.mesh, Not(soft_)) {
   for (size_t i = 0; i < plan.surfaces.size(); ++i) AddFaces(plan.surfaces[i], SurfaceId(i));
+  for (const Column& column : plan.columns) AddFaces(column);
+  AddToGrid();
   AddLevels();
   AddOpenings();
 }
@@ -68,6 +72,24 @@ void PlanIndex::AddFaces(const Surface& surface, SurfaceId id) {
   face.physical_wall = surface.wall.valid() ? surface.wall.value : num_physical_walls_++;
   face.z_min_m = surface.z_min_m - plan_.origin.z();
   face.z_max_m = surface.z_max_m - plan_.origin.z();
+  AddChain(points, face);
+}
+
+void PlanIndex::AddFaces(const Column& column) {
+  std::vector<Eigen::Vector2d> points = column.outline;
+  if (points.size() < 3) return;
+  points.push_back(points.front());
+  double twice_area_m2 = 0;
+  for (size_t i = 0; i + 1 < points.size(); ++i) twice_area_m2 += points[i].x() * points[i + 1].y() - points[i].y() * points[i + 1].x();
+  if (twice_area_m2 > 0) std::reverse(points.begin(), points.end());  // free space is outside, to the left of a clockwise ring
+  PlanFace face;
+  face.physical_wall = num_physical_walls_++;
+  face.z_min_m = column.z_min_m - plan_.origin.z();
+  face.z_max_m = column.z_max_m - plan_.origin.z();
+  AddChain(points, face);
+}
+
+void PlanIndex::AddChain(const std::vector<Eigen::Vector2d>& points, PlanFace face) {
   for (size_t i = 0; i + 1 < points.size(); ++i) {
     face.start = points[i] - plan_.origin.head<2>();
     face.end = points[i + 1] - plan_.origin.head<2>();
@@ -78,6 +100,41 @@ void PlanIndex::AddFaces(const Surface& surface, SurfaceId id) {
     face.d_m = -face.normal.dot(face.start);
     faces_.push_back(face);
   }
+}
+
+void PlanIndex::AddToGrid() {
+  if (faces_.empty()) return;
+  Eigen::AlignedBox2d box;
+  for (const PlanFace& f : faces_) box.extend(f.start).extend(f.end);
+  grid_low_ = box.min();
+  grid_size_ = (box.sizes() / kGridCell_m).cwiseMin(kMaxGridCells - 1.0).cast<int>().array() + 1;
+  grid_.resize(static_cast<size_t>(grid_size_.prod()));
+  for (uint32_t i = 0; i < faces_.size(); ++i) {
+    const Eigen::Vector2i lo = CellOf(faces_[i].start.cwiseMin(faces_[i].end)), hi = CellOf(faces_[i].start.cwiseMax(faces_[i].end));
+    for (int y = lo.y(); y <= hi.y(); ++y) {
+      for (int x = lo.x(); x <= hi.x(); ++x) grid_[static_cast<size_t>(y) * grid_size_.x() + x].push_back(i);
+    }
+  }
+}
+
+Eigen::Vector2i PlanIndex::CellOf(const Eigen::Vector2d& p) const {
+  const Eigen::Vector2d last = (grid_size_.array() - 1).cast<double>();
+  return ((p - grid_low_) / kGridCell_m).array().floor().matrix().cwiseMax(0.0).cwiseMin(last).cast<int>();
+}
+
+void PlanIndex::FacesNear(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double margin_m, std::vector<uint32_t>& out) const {
+  out.clear();
+  if (faces_.empty()) return;
+  const Eigen::Vector2d margin(margin_m, margin_m);
+  const Eigen::Vector2i lo = CellOf(a.cwiseMin(b) - margin), hi = CellOf(a.cwiseMax(b) + margin);
+  for (int y = lo.y(); y <= hi.y(); ++y) {
+    for (int x = lo.x(); x <= hi.x(); ++x) {
+      const std::vector<uint32_t>& cell = grid_[static_cast<size_t>(y) * grid_size_.x() + x];
+      out.insert(out.end(), cell.begin(), cell.end());
+    }
+  }
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
 }
 
 void PlanIndex::AddLevels() {

@@ -9,9 +9,9 @@
 
 namespace plumb::runtime {
 
-// A flat piece of a wall surface; a curved surface becomes several. Frame: the mesh's (plan minus AGraph::origin).
+// A flat piece of a wall surface, or a side of a column; a curved surface becomes several. Frame: the mesh's (plan minus AGraph::origin).
 struct PlanFace {
-  SurfaceId surface;
+  SurfaceId surface;  // none: a column's
   uint32_t physical_wall = 0;  // faces of one wall share it: they move together
   Eigen::Vector2d start = Eigen::Vector2d::Zero(), end = Eigen::Vector2d::Zero();
   Eigen::Vector2d normal = Eigen::Vector2d::UnitX(), along = Eigen::Vector2d::UnitY();  // along: from start to end
@@ -42,6 +42,9 @@ class PlanIndex {
   [[nodiscard]] const std::vector<PlanLevel>& levels() const { return levels_; }
   [[nodiscard]] uint32_t num_physical_walls() const { return num_physical_walls_; }
 
+  // Indices into faces() of those within `margin_m` of the segment's bounding box (and some more), ascending. Thread-safe.
+  void FacesNear(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double margin_m, std::vector<uint32_t>& out) const;
+
   // Thread-safe.
   [[nodiscard]] PlanHit Cast(const Ray& ray) const;
 
@@ -55,11 +58,18 @@ class PlanIndex {
     double height_m = 0;
   };
   void AddFaces(const Surface& surface, SurfaceId id);
+  void AddFaces(const Column& column);
+  void AddChain(const std::vector<Eigen::Vector2d>& points, PlanFace face);  // free space to the left
   void AddLevels();
+  void AddToGrid();
+  [[nodiscard]] Eigen::Vector2i CellOf(const Eigen::Vector2d& p) const;  // clamped to the grid
   void AddOpenings();
 
   const AGraph& plan_;
   std::vector<PlanFace> faces_;
+  Eigen::Vector2d grid_low_ = Eigen::Vector2d::Zero();
+  Eigen::Vector2i grid_size_ = Eigen::Vector2i::Zero();
+  std::vector<std::vector<uint32_t>> grid_;  // per cell the faces whose bounding boxes reach into it
   std::vector<PlanLevel> levels_;
   std::vector<Opening> openings_;
   std::vector<bool> soft_;  // per triangle

@@ -29,7 +29,7 @@ Hypothesis ToHypothesis(const Candidate& candidate, const MapView& map, const Ei
   h.T_plan_map.translation().z() = origin.z() + pose.z_m;
   h.storey = candidate.storey;
   h.log_likelihood = candidate.rays.log_likelihood;
-  h.consistent_surfaces = candidate.fit.consistent_faces;
+  h.consistent_planes = candidate.fit.consistent_planes;
   h.consistent_ratio = candidate.fit.consistent_ratio;
   h.explained_ratio = candidate.rays.explained_ratio;
   h.through_ratio = candidate.rays.through_ratio;
@@ -37,12 +37,12 @@ Hypothesis ToHypothesis(const Candidate& candidate, const MapView& map, const Ei
   return h;
 }
 
-void SetProbabilities(MatchResult& result) {
-  double highest = 0;  // "outside" has log-likelihood 0
+void SetProbabilities(MatchResult& result, double outside) {
+  double highest = outside;
   for (const Hypothesis& h : result.hypotheses) highest = std::max(highest, h.log_likelihood);
-  double sum = std::exp(-highest);
+  double sum = std::exp(outside - highest);
   for (const Hypothesis& h : result.hypotheses) sum += std::exp(h.log_likelihood - highest);
-  result.probability_outside = std::exp(-highest) / sum;
+  result.probability_outside = std::exp(outside - highest) / sum;
   for (Hypothesis& h : result.hypotheses) h.probability = std::exp(h.log_likelihood - highest) / sum;
 }
 
@@ -69,8 +69,8 @@ std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, cons
   if (hypothesis.sigma_xy_m > options.accept_sigma_xy_m || hypothesis.sigma_yaw_rad > options.accept_sigma_yaw_rad) {
     return "too few walls agree to fix the position in every direction";
   }
-  if (fit.consistent_faces < options.accept_min_surfaces) {
-    return fmt::format("only {} wall surfaces agree with the plan, {} are asked for", fit.consistent_faces, options.accept_min_surfaces);
+  if (fit.consistent_planes < options.accept_min_planes) {
+    return fmt::format("only {} wall planes agree with the plan, {} are asked for", fit.consistent_planes, options.accept_min_planes);
   }
   if (fit.consistent_ratio < options.accept_min_consistent_ratio) {
     return fmt::format("only {:.0f} % of the walls seen agree with the plan", 100 * fit.consistent_ratio);
@@ -85,7 +85,7 @@ std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, cons
 }
 
 MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, const Eigen::Vector3d& origin,
-                   const MatcherOptions& options) {
+                   const MatcherOptions& options, double mirrored) {
   MatchResult result;
   if (sorted.empty()) {
     result.reason = "no pose in the plan puts the map's walls on planned ones";
@@ -93,10 +93,14 @@ MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, con
   }
   const size_t n = std::min(sorted.size(), static_cast<size_t>(options.keep_hypotheses));
   for (size_t i = 0; i < n; ++i) result.hypotheses.push_back(ToHypothesis(sorted[i], map, origin));
-  SetProbabilities(result);
+  SetProbabilities(result, std::max(0.0, mirrored));
   const Hypothesis& best = result.hypotheses.front();
   if (best.log_likelihood < options.accept_margin_nats) {
     result.reason = fmt::format("the best pose is no better than a place outside the plan ({:+.1f} nats)", best.log_likelihood);
+    return result;
+  }
+  if (best.log_likelihood - mirrored < options.accept_margin_nats) {
+    result.reason = fmt::format("a mirror image of the plan fits about as well ({:+.1f} nats)", mirrored - best.log_likelihood);
     return result;
   }
   result.reason = Doubt(sorted.front(), best, options);

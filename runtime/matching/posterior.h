@@ -23,8 +23,9 @@ struct Candidate {
 [[nodiscard]] std::vector<Candidate> SortAndMerge(std::vector<Candidate> candidates);
 
 // `sorted`: from SortAndMerge. Poses are given as T_plan_map with `origin` and the map's centre put back.
+// `mirrored`: log-likelihood of the best pose in the plan's mirror image; "outside the plan" is at least as likely.
 [[nodiscard]] MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, const Eigen::Vector3d& origin,
-                                 const MatcherOptions& options);
+                                 const MatcherOptions& options, double mirrored = 0);
 
 // Why this pose alone, rivals aside, is not yet trusted; empty if it is.
 [[nodiscard]] std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, const MatcherOptions& options);

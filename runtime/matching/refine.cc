@@ -4,18 +4,20 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
+#include <numeric>
 
 namespace plumb::runtime {
 namespace {
 
 constexpr double kMaxOffset_m = 0.6, kMaxTurn_rad = 0.35;  // a built wall further off its plan is not taken for it
 constexpr double kPairOffsetSigma_m = 0.15, kPairTurnSigma_rad = 0.1;
-constexpr double kMinOverlap_m = 0.3;
+constexpr double kMinOverlap_m = 0.3, kMinOverlapRatio = 0.3;
+constexpr double kCoplanar_m = 0.03;
 constexpr double kWallSigma_m = 0.02;                    // map noise and building tolerance of a wall as planned
 constexpr double kTolerance_m = 3 * kWallSigma_m;        // within: as planned
 constexpr double kFullVoteLength_m = 2.0;                // longer walls do not count more: each may deviate as a whole
 constexpr double kMinFaceOverlap_m = 0.5;
+constexpr double kGroupWidth_m = 0.12;
 constexpr double kDirectionWidth_rad = 0.26;
 constexpr double kMinMajority = 1.5, kMinMajorityMargin = 0.5;  // in walls
 constexpr size_t kMaxConsensusGroups = 24;
@@ -28,12 +30,27 @@ struct WallGroup {
   Eigen::Vector2d normal = Eigen::Vector2d::UnitX();  // of the first pair's face
 };
 
-std::vector<WallGroup> GroupByWall(const PlanIndex& plan, const std::vector<WallPair>& pairs) {
-  std::map<uint32_t, std::vector<WallGroup>> by_wall;  // ends and bends of a wall make groups of their own
-  for (size_t i = 0; i < pairs.size(); ++i) {
+// Displacement of what the map has there from the plan's face, along its normal.
+double PairDisplacement(const PlanFace& face, const WallPair& pair, const PlanarPose& pose) {
+  return FaceDistance(face, pose, 0.5 * (pair.p + pair.q), nullptr);
+}
+
+// Parts of a wall that do not stand off alike (its ends and bends, a cupboard before it) make groups of their own.
+std::vector<WallGroup> GroupByWall(const PlanIndex& plan, const std::vector<WallPair>& pairs, const PlanarPose& pose) {
+  std::vector<size_t> order(pairs.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return pairs[a].overlap_m > pairs[b].overlap_m; });
+  std::map<uint32_t, std::vector<WallGroup>> by_wall;
+  for (size_t i : order) {
     const PlanFace& face = plan.faces()[pairs[i].face];
     std::vector<WallGroup>& some = by_wall[face.physical_wall];
-    auto group = std::find_if(some.begin(), some.end(), [&](const WallGroup& g) { return std::abs(g.normal.dot(face.normal)) > 0.9; });
+    auto group = std::find_if(some.begin(), some.end(), [&](const WallGroup& g) {
+      const double cosine = g.normal.dot(face.normal);
+      if (std::abs(cosine) < 0.9) return false;
+      const WallPair& first = pairs[g.pairs.front()];
+      const double off_m = PairDisplacement(face, pairs[i], pose) - std::copysign(1.0, cosine) * PairDisplacement(plan.faces()[first.face], first, pose);
+      return std::abs(off_m) < kGroupWidth_m;
+    });
     if (group == some.end()) {
       group = some.insert(some.end(), WallGroup());
       group->normal = face.normal;
@@ -50,8 +67,8 @@ std::vector<WallGroup> GroupByWall(const PlanIndex& plan, const std::vector<Wall
 
 class WallProblem {
  public:
-  WallProblem(const PlanIndex& plan, const std::vector<WallPair>& pairs)
-      : plan_(plan), pairs_(pairs), groups_(GroupByWall(plan, pairs)) {}
+  WallProblem(const PlanIndex& plan, const std::vector<WallPair>& pairs, const PlanarPose& pose)
+      : plan_(plan), pairs_(pairs), groups_(GroupByWall(plan, pairs, pose)) {}
 
   [[nodiscard]] const std::vector<WallGroup>& groups() const { return groups_; }
   [[nodiscard]] const PlanFace& face(size_t pair) const { return plan_.faces()[pairs_[pair].face]; }
@@ -71,9 +88,8 @@ class WallProblem {
   [[nodiscard]] double Displacement(const WallGroup& group, const PlanarPose& pose) const {
     double sum = 0;
     for (size_t i : group.pairs) {
-      const Eigen::Vector2d middle = 0.5 * (pairs_[i].p + pairs_[i].q);
       const double sign = face(i).normal.dot(group.normal) < 0 ? -1 : 1;
-      sum += sign * pairs_[i].overlap_m * FaceDistance(face(i), pose, middle, nullptr);
+      sum += sign * pairs_[i].overlap_m * PairDisplacement(face(i), pairs_[i], pose);
     }
     return sum / group.overlap_m;
   }
@@ -201,6 +217,84 @@ std::vector<bool> InMajorityDirection(const WallProblem& problem, const PlanarPo
   return clear;
 }
 
+// A map wall, placed in the plan.
+class WallInPlan {
+ public:
+  WallInPlan(const MapWall& wall, const PlanarPose& pose) : wall_(wall) {
+    const Eigen::Matrix2d R = pose.rotation();
+    normal_ = R * wall.normal;
+    start_ = R * wall.start + pose.t_m;
+    end_ = R * wall.end + pose.t_m;
+    z_min_m_ = wall.z_min_m + pose.z_m;
+    z_max_m_ = wall.z_max_m + pose.z_m;
+  }
+
+  // The part of it that lies along a face, and how well: overlapped metres, less for what is off or turned. Zero: not that face.
+  [[nodiscard]] double Along(const PlanFace& face, WallPair& pair) const {
+    if (face.normal.dot(normal_) < kMinCosine || z_max_m_ < face.z_min_m || z_min_m_ > face.z_max_m) return 0;
+    const double rs = face.normal.dot(start_) + face.d_m, re = face.normal.dot(end_) + face.d_m;
+    if (std::min(rs, re) > kMaxOffset_m || std::max(rs, re) < -kMaxOffset_m) return 0;
+    const double us = face.along.dot(start_ - face.start), ue = face.along.dot(end_ - face.start);
+    const double lo = std::max(us, 0.0), hi = std::min(ue, face.length_m);
+    if (hi - lo < std::max(kMinOverlap_m, kMinOverlapRatio * std::min(wall_.length_m, face.length_m))) return 0;
+    const double a = (lo - us) / (ue - us), b = (hi - us) / (ue - us);  // along the map wall
+    const double offset_m = rs + 0.5 * (a + b) * (re - rs);
+    if (std::abs(offset_m) > kMaxOffset_m) return 0;
+    pair.p = wall_.start + a * (wall_.end - wall_.start);
+    pair.q = wall_.start + b * (wall_.end - wall_.start);
+    pair.overlap_m = hi - lo;
+    const double offset = offset_m / kPairOffsetSigma_m, turn = Cross(normal_, face.normal) / kPairTurnSigma_rad;
+    return pair.overlap_m * std::exp(-0.5 * (offset * offset + turn * turn));
+  }
+
+  [[nodiscard]] const Eigen::Vector2d& start() const { return start_; }
+  [[nodiscard]] const Eigen::Vector2d& end() const { return end_; }
+
+  // Along the map wall, 0 at its start and 1 at its end.
+  [[nodiscard]] double Position(const Eigen::Vector2d& on_wall) const { return wall_.along.dot(on_wall - wall_.start) / wall_.length_m; }
+
+ private:
+  static inline const double kMinCosine = std::cos(kMaxTurn_rad);
+  const MapWall& wall_;
+  Eigen::Vector2d normal_, start_, end_;
+  double z_min_m_ = 0, z_max_m_ = 0;
+};
+
+bool Coplanar(const PlanFace& a, const PlanFace& b) {
+  return a.normal.dot(b.normal) > 0.9998 && std::abs(a.normal.dot(0.5 * (b.start + b.end)) + a.d_m) < kCoplanar_m;
+}
+
+// A wall that runs past several rooms has a face in each; its map wall may be one piece. Adds the faces in the plane of the last pair's
+// that take a part of the map wall not taken yet.
+void AppendCoplanar(const PlanIndex& plan, const WallInPlan& wall, const std::vector<uint32_t>& near, std::vector<WallPair>& pairs) {
+  const size_t first = pairs.size() - 1, best = pairs[first].face;
+  for (uint32_t k : near) {
+    if (k == best || !Coplanar(plan.faces()[best], plan.faces()[k])) continue;
+    WallPair pair;
+    if (wall.Along(plan.faces()[k], pair) <= 0) continue;
+    const double p = wall.Position(pair.p), q = wall.Position(pair.q);
+    const bool taken = std::any_of(pairs.begin() + static_cast<std::ptrdiff_t>(first), pairs.end(), [&](const WallPair& other) {
+      return std::min(q, wall.Position(other.q)) - std::max(p, wall.Position(other.p)) > 0.1 * (q - p);
+    });
+    if (taken) continue;
+    pair.wall = pairs[first].wall;
+    pair.face = k;
+    pairs.push_back(pair);
+  }
+}
+
+// Planes of the plan that the map agrees with over at least kMinFaceOverlap_m; coplanar faces count once.
+int CountPlanes(const PlanIndex& plan, const std::vector<double>& overlap_m) {
+  std::vector<std::pair<size_t, double>> planes;  // first face, overlap
+  for (size_t k = 0; k < overlap_m.size(); ++k) {
+    if (overlap_m[k] <= 0) continue;
+    const auto known = std::find_if(planes.begin(), planes.end(), [&](const auto& p) { return Coplanar(plan.faces()[p.first], plan.faces()[k]); });
+    if (known == planes.end()) planes.emplace_back(k, overlap_m[k]);
+    else known->second += overlap_m[k];
+  }
+  return static_cast<int>(std::count_if(planes.begin(), planes.end(), [](const auto& p) { return p.second >= kMinFaceOverlap_m; }));
+}
+
 void Assess(const PlanIndex& plan, const MapView& map, const WallProblem& problem, WallFit& fit) {
   const std::vector<WallGroup>& groups = problem.groups();
   const std::vector<bool> clear = InMajorityDirection(problem, fit.pose);
@@ -218,8 +312,7 @@ void Assess(const PlanIndex& plan, const MapView& map, const WallProblem& proble
       consistent_m += problem.pair(k).overlap_m;
     }
   }
-  fit.consistent_faces = static_cast<int>(
-      std::count_if(overlap_m.begin(), overlap_m.end(), [](double length_m) { return length_m >= kMinFaceOverlap_m; }));
+  fit.consistent_planes = CountPlanes(plan, overlap_m);
   fit.consistent_ratio = map.wall_length_m > 0 ? std::min(1.0, consistent_m / map.wall_length_m) : 0;
   fit.information = H_clear.topLeftCorner<3, 3>();
   // With a weak prior, so that what no wall measures comes out as unknown instead of as a division by zero.
@@ -241,32 +334,24 @@ double FaceDistance(const PlanFace& face, const PlanarPose& pose, const Eigen::V
 
 std::vector<WallPair> PairWalls(const PlanIndex& plan, const MapView& map, const PlanarPose& pose) {
   std::vector<WallPair> pairs;
-  const Eigen::Matrix2d R = pose.rotation();
-  const double min_cosine = std::cos(kMaxTurn_rad);
+  std::vector<uint32_t> near;
   for (size_t i = 0; i < map.walls.size(); ++i) {
-    const MapWall& wall = map.walls[i];
-    const Eigen::Vector2d n = R * wall.normal, start = R * wall.start + pose.t_m, end = R * wall.end + pose.t_m;
+    const WallInPlan wall(map.walls[i], pose);
+    plan.FacesNear(wall.start(), wall.end(), kMaxOffset_m, near);
     WallPair best;
     double best_score = 0;
-    for (size_t k = 0; k < plan.faces().size(); ++k) {
-      const PlanFace& face = plan.faces()[k];
-      if (face.normal.dot(n) < min_cosine) continue;
-      const double rs = face.normal.dot(start) + face.d_m, re = face.normal.dot(end) + face.d_m;
-      if (std::min(rs, re) > kMaxOffset_m || std::max(rs, re) < -kMaxOffset_m) continue;
-      if (wall.z_max_m + pose.z_m < face.z_min_m || wall.z_min_m + pose.z_m > face.z_max_m) continue;
-      const double us = face.along.dot(start - face.start), ue = face.along.dot(end - face.start);
-      const double lo = std::max(us, 0.0), hi = std::min(ue, face.length_m), overlap_m = hi - lo;
-      if (overlap_m < std::max(kMinOverlap_m, 0.3 * std::min(wall.length_m, face.length_m))) continue;
-      const double a = (lo - us) / (ue - us), b = (hi - us) / (ue - us);  // along the map wall
-      const double offset = (rs + 0.5 * (a + b) * (re - rs)) / kPairOffsetSigma_m;
-      if (std::abs(offset) * kPairOffsetSigma_m > kMaxOffset_m) continue;
-      const double turn = Cross(n, face.normal) / kPairTurnSigma_rad;
-      const double score = overlap_m * std::exp(-0.5 * (offset * offset + turn * turn));
+    for (uint32_t k : near) {
+      WallPair pair;
+      const double score = wall.Along(plan.faces()[k], pair);
       if (score <= best_score) continue;
       best_score = score;
-      best = {i, k, wall.start + a * (wall.end - wall.start), wall.start + b * (wall.end - wall.start), overlap_m};
+      best = pair;
+      best.face = k;
     }
-    if (best_score > 0) pairs.push_back(best);
+    if (best_score <= 0) continue;
+    best.wall = i;
+    pairs.push_back(best);
+    AppendCoplanar(plan, wall, near, pairs);
   }
   return pairs;
 }
@@ -276,7 +361,7 @@ WallFit RefineOnWalls(const PlanIndex& plan, const MapView& map, const PlanarPos
   for (int round = 0; round < 3; ++round) {
     const std::vector<WallPair> pairs = PairWalls(plan, map, pose);
     if (pairs.empty()) break;
-    const WallProblem problem(plan, pairs);
+    const WallProblem problem(plan, pairs, pose);
     if (round < 2) {
       pose.yaw_rad = MedianYaw(plan, map, pairs, pose.yaw_rad);
       pose.t_m = ConsensusTranslation(problem, pose);
@@ -290,7 +375,7 @@ WallFit AssessOnWalls(const PlanIndex& plan, const MapView& map, const PlanarPos
   WallFit fit;
   fit.pose = pose;
   fit.pairs = PairWalls(plan, map, pose);
-  Assess(plan, map, WallProblem(plan, fit.pairs), fit);
+  Assess(plan, map, WallProblem(plan, fit.pairs, pose), fit);
   return fit;
 }
 

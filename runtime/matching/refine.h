@@ -21,7 +21,7 @@ struct WallPair {
 struct WallFit {
   PlanarPose pose;
   std::vector<WallPair> pairs;
-  int consistent_faces = 0;        // plan faces that the map agrees with to within the wall tolerance
+  int consistent_planes = 0;       // planes of the plan that the map agrees with to within the wall tolerance
   double consistent_ratio = 0;     // of the map's wall length
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  // of (x, y, yaw), from directions in which a majority of walls agrees
   double scale_error = 0, sigma_scale = 1e3;              // how much larger the building is than the plan, 0.01 = 1 %
@@ -30,7 +30,7 @@ struct WallFit {
 // Signed distance of the map point p from a plan face under a pose, and its derivatives by (x, y, yaw, scale about the map's centre).
 [[nodiscard]] double FaceDistance(const PlanFace& face, const PlanarPose& pose, const Eigen::Vector2d& p, Eigen::Vector4d* jacobian);
 
-// At most one face per map wall: the one that takes most of it, nearest.
+// For each map wall the face that takes most of it, nearest, and the faces in the same plane that take the rest.
 [[nodiscard]] std::vector<WallPair> PairWalls(const PlanIndex& plan, const MapView& map, const PlanarPose& pose);
 
 // From within about 0.4 m and 5 degrees. Tolerates walls that stand off their plan as long as most along each direction do not.

@@ -232,6 +232,26 @@ TEST(OptimizeJointly, CorridorLeavesItsDirectionOpen) {
   EXPECT_LT(std::sqrt(result.cov_xy_yaw(0, 0)), 0.05);
 }
 
+// A deviation without a prior absorbs its own factor: then the plan does not hold the map, however precise the map is.
+TEST(OptimizeJointly, OnlyThePriorOnDeviationsTiesThePlan) {
+  const AGraph house = test::MakeHouse();
+  const Drive drive = test::DriveThroughHouse(house, WithDeviations(1, {}));
+  const std::vector<Match> matches = MatchSurfaces(drive.map, house, drive.T_plan_map, {});
+  JointOptions options;
+  options.coupling.offset_tau0_m = 10;
+  options.coupling.offset_tau1_m = 11;
+  options.coupling.yaw_tau0_rad = 3;
+  options.coupling.yaw_tau1_rad = 4;
+  for (const double precision : {1.0, 0.01}) {
+    options.point_sigma_m = 0.03 * precision;
+    options.observation_floor_m = 0.005 * precision;
+    options.observation_floor_rad = 0.003 * precision;
+    const JointResult result = OptimizeJointly(drive.map, house, matches, drive.T_plan_map, options);
+    EXPECT_GT(std::sqrt(result.cov_xy_yaw(0, 0)), 2.0);
+    EXPECT_GT(std::sqrt(result.cov_xy_yaw(1, 1)), 2.0);
+  }
+}
+
 TEST(OptimizeJointly, SameInputSameBytes) {
   const AGraph house = test::MakeHouse();
   const Drive drive = test::DriveThroughHouse(house, WithDeviations(8, {{kSouth, {0.1, 0.02}}}));

@@ -8,7 +8,6 @@
 #include <iterator>
 #include <numeric>
 #include <optional>
-#include <sstream>
 #include <string_view>
 
 #include "schema/files.h"
@@ -31,6 +30,13 @@ std::optional<std::string> ConfigPath(const std::vector<std::string>& arguments)
     if (arguments[i].starts_with(std::string(kFlag) + "=")) path = arguments[i].substr(kFlag.size() + 1);
   }
   return path;
+}
+
+const CLI::App* FindSubcommand(const CLI::App& app, const std::string& name) {
+  for (const CLI::App* subcommand : app.get_subcommands({})) {
+    if (subcommand->get_name() == name) return subcommand;
+  }
+  return nullptr;
 }
 
 std::optional<std::string> ValueText(const toml::node& node) {
@@ -70,8 +76,7 @@ std::string UnknownTable(const std::string& path, const std::string& name, size_
 }
 
 Expected<std::vector<std::string>> FlagsOf(const toml::table& root, const std::string& path, const CLI::App& app, const CLI::App& subcommand) {
-  std::vector<std::string> subcommands;
-  for (const CLI::App* sub : app.get_subcommands({})) subcommands.push_back(sub->get_name());
+  const std::vector<std::string> subcommands = SubcommandNames(app);
   std::vector<std::string> flags;
   if (const auto added = AddFlags(root, path, subcommand, flags); !added) return tl::unexpected(added.error());
   for (const auto& [toml_key, node] : root) {
@@ -87,16 +92,30 @@ Expected<std::vector<std::string>> FlagsOf(const toml::table& root, const std::s
   return flags;
 }
 
-std::string TomlValue(const CLI::Option& option) {
-  std::string value = option.get_default_str();
-  if (option.count() > 0) value = option.results().back();
+// As text; empty where it has no value.
+std::string ValueOf(const CLI::Option& option) {
+  std::string value = option.count() > 0 ? option.results().back() : option.get_default_str();
   if (option.get_expected_max() == 0) return value.empty() || value == "false" ? "false" : "true";
+  return value;
+}
+
+bool IsBare(const CLI::Option& option) {
   const std::string type = option.get_type_name();
-  const bool is_number = type.starts_with("INT") || type.starts_with("UINT") || type.starts_with("FLOAT");
-  if (is_number && !value.empty()) return value;
-  std::ostringstream quoted;
-  quoted << toml::value<std::string>(value);
-  return quoted.str();
+  return option.get_expected_max() == 0 || type.starts_with("INT") || type.starts_with("UINT") || type.starts_with("FLOAT");
+}
+
+// A TOML basic string.
+std::string Quoted(const std::string& text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    if (static_cast<unsigned char>(c) < 0x20) {
+      out += fmt::format("\\u{:04X}", static_cast<unsigned>(c));
+    } else {
+      out += c;
+    }
+  }
+  return out + '"';
 }
 
 }  // namespace
@@ -104,7 +123,7 @@ std::string TomlValue(const CLI::Option& option) {
 Expected<std::vector<std::string>> ExpandConfig(const CLI::App& app, const std::vector<std::string>& arguments) {
   const auto path = ConfigPath(arguments);
   const auto at = std::find_if(arguments.begin(), arguments.end(), [](const std::string& a) { return !a.starts_with("-"); });
-  const CLI::App* subcommand = at == arguments.end() ? nullptr : app.get_subcommand_no_throw(*at);
+  const CLI::App* subcommand = at == arguments.end() ? nullptr : FindSubcommand(app, *at);
   if (!path || !subcommand) return arguments;
   const auto text = ReadFileText(*path);
   if (!text) return tl::unexpected(text.error());
@@ -125,10 +144,17 @@ std::string ConfigToToml(const CLI::App& subcommand) {
   std::string out = fmt::format("[{}]\n", subcommand.get_name());
   for (const CLI::Option* option : subcommand.get_options()) {
     if (!IsConfigurable(*option)) continue;
-    const bool unset = option->count() == 0 && option->get_default_str().empty() && option->get_expected_max() > 0;
-    // An option without a value is shown but not set.
-    out += unset ? fmt::format("# {} = \n", option->get_lnames().front())
-                 : fmt::format("{} = {}\n", option->get_lnames().front(), TomlValue(*option));
+    const std::string value = ValueOf(*option);
+    // An option without a value is shown, but not set.
+    out += fmt::format("{}{} = {}\n", value.empty() ? "# " : "", option->get_lnames().front(), IsBare(*option) ? value : Quoted(value));
+  }
+  return out;
+}
+
+std::vector<Option> OptionValues(const CLI::App& subcommand) {
+  std::vector<Option> out;
+  for (const CLI::Option* option : subcommand.get_options()) {
+    if (IsConfigurable(*option)) out.push_back({option->get_lnames().front(), ValueOf(*option)});
   }
   return out;
 }
@@ -153,6 +179,12 @@ std::string NearestName(const std::string& name, const std::vector<std::string>&
     }
   }
   return best;
+}
+
+std::vector<std::string> SubcommandNames(const CLI::App& app) {
+  std::vector<std::string> names;
+  for (const CLI::App* subcommand : app.get_subcommands({})) names.push_back(subcommand->get_name());
+  return names;
 }
 
 std::vector<std::string> FlagNames(const CLI::App& subcommand) {

@@ -23,9 +23,12 @@ struct PrintConfigRequest {
 // Adds what CLI11 does not say: the flag that may have been meant.
 std::string WithHint(const CLI::App& app, const CLI::ParseError& error, const std::vector<std::string>& arguments) {
   std::string message = error.what();
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return message;
   const auto used = app.get_subcommands();
-  if (used.empty()) return message;
+  if (used.empty()) {
+    const std::string near = NearestName(arguments.front(), SubcommandNames(app));
+    return near.empty() ? message : fmt::format("there is no subcommand `{}`; did you mean `{}`?", arguments.front(), near);
+  }
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return message;
   const std::vector<std::string> names = FlagNames(*used.front());
   for (const std::string& argument : arguments) {
     if (!argument.starts_with("--")) continue;

@@ -35,15 +35,28 @@ std::string Planned(const Surface& s, const SurfaceEntry& entry, const Sheet& sh
   return fmt::format("<path class=\"{}\" d=\"{}\"/>\n", style, sheet.Line(s.start + inset, s.end + inset));
 }
 
-std::string Deviated(const Surface& s, const SurfaceEntry& entry, double limit_m, const Sheet& sheet) {
+// The parts of deviated surfaces, in the order in which they are drawn. What became wall comes below what became free, so that a wall that
+// moved by more than its thickness is seen where it stands.
+struct DeviatedLayers {
+  std::string wall_now, free_now, built;
+};
+
+void AddDeviated(const Surface& s, const SurfaceEntry& entry, double limit_m, const Sheet& sheet, DeviatedLayers& layers) {
+  if (entry.status == "missing") {
+    layers.built += fmt::format("<path class=\"missing\" d=\"{}\"/>\n", sheet.Line(s.start, s.end));
+    return;
+  }
   const auto [start, end] = EndDisplacements(s, entry);
-  const std::string color = DeviationColor(entry.translation_m, limit_m);
-  if (entry.status == "missing") return fmt::format("<path class=\"missing\" d=\"{}\"/>\n", sheet.Line(s.start, s.end));
-  return fmt::format(
-      "<g class=\"dev\" style=\"--dev:{}\" data-a=\"{}\" data-b=\"{}\" data-da=\"{} {}\" data-db=\"{} {}\"><path class=\"dev-area\" d=\"{}\"/>"
-      "<path class=\"dev-built\" d=\"{}\"/></g>\n",
-      color, sheet.At(s.start), sheet.At(s.end), Decimal(100 * start.x()), Decimal(-100 * start.y()), Decimal(100 * end.x()), Decimal(-100 * end.y()),
-      sheet.Closed({s.start, s.end, s.end + end, s.start + start}), sheet.Line(s.start + start, s.end + end));
+  const std::string data = fmt::format("style=\"--dev:{}\" data-a=\"{}\" data-b=\"{}\" data-da=\"{} {}\" data-db=\"{} {}\"",
+                                       DeviationColor(entry.translation_m, limit_m), sheet.At(s.start), sheet.At(s.end), Decimal(100 * start.x()),
+                                       Decimal(-100 * start.y()), Decimal(100 * end.x()), Decimal(-100 * end.y()));
+  const std::string area = sheet.Closed({s.start, s.end, s.end + end, s.start + start});
+  if (entry.translation_m > 0) {
+    layers.wall_now += fmt::format("<path class=\"dev wall-now\" d=\"{}\" {}/>\n", area, data);
+  } else {
+    layers.free_now += fmt::format("<path class=\"dev free-now\" d=\"{}\" {}/>\n", area, data);
+  }
+  layers.built += fmt::format("<path class=\"dev built\" d=\"{}\" {}/>\n", sheet.Line(s.start + start, s.end + end), data);
 }
 
 }  // namespace
@@ -77,8 +90,9 @@ std::string DeviationStyle() {
   return R"(.plan .as-planned{stroke:#4f9d8f;stroke-width:6;stroke-opacity:.75;fill:none}
 .plan .unobserved{stroke:var(--soft);stroke-width:2.5;stroke-dasharray:2 9;stroke-linecap:round;fill:none}
 .plan .missing{stroke:#c2185b;stroke-width:8;stroke-dasharray:16 9;fill:none}
-.plan .dev-area{fill:var(--dev);fill-opacity:.38}
-.plan .dev-built{stroke:var(--dev);stroke-width:7;fill:none}
+.plan .wall-now{fill:var(--dev);fill-opacity:.5}
+.plan .free-now{fill:var(--floor)}
+.plan .built{stroke:var(--dev);stroke-width:7;fill:none}
 .plan .tag circle{fill:var(--paper);stroke:var(--dev);stroke-width:3.5}
 .plan .tag text{font-weight:700}
 .plan .tag .amount{paint-order:stroke;stroke:var(--paper);stroke-width:7;stroke-linejoin:round;font-weight:600}
@@ -86,17 +100,18 @@ std::string DeviationStyle() {
 }
 
 std::string DrawSurfaces(const AGraph& graph, StoreyId storey, const Deviations& deviations, double limit_m, const Sheet& sheet) {
-  std::string planned, deviated;
+  std::string planned;
+  DeviatedLayers deviated;
   for (const SurfaceEntry& entry : deviations.surfaces) {
     const Surface& s = graph.surfaces[entry.id.index()];
     if (s.storey != storey) continue;
     if (Deviates(entry)) {
-      deviated += Deviated(s, entry, limit_m, sheet);
+      AddDeviated(s, entry, limit_m, sheet, deviated);
     } else {
       planned += Planned(s, entry, sheet);
     }
   }
-  return planned + deviated;
+  return planned + deviated.wall_now + deviated.free_now + deviated.built;
 }
 
 std::string DrawWallNumbers(const AGraph& graph, StoreyId storey, const std::vector<WallRow>& rows, const Sheet& sheet) {
@@ -109,7 +124,7 @@ std::string DrawWallNumbers(const AGraph& graph, StoreyId storey, const std::vec
     const Vector2d at = s.midpoint() + clear_m * s.normal.head<2>();
     const double x = sheet.x(at.x()), y = sheet.y(at.y());
     const std::string amount =
-        row.surface->status == "missing" ? std::string("missing") : fmt::format("{:+.1f} cm", 100 * row.surface->translation_m);
+        row.surface->status == "missing" ? std::string("missing") : Signed(100 * row.surface->translation_m, 1) + " cm";
     fmt::format_to(std::back_inserter(out),
                    "<g class=\"tag\" style=\"--dev:{}\"><circle cx=\"{}\" cy=\"{}\" r=\"16\"/><text x=\"{}\" y=\"{}\" font-size=\"19\">{}</text>"
                    "<text class=\"amount\" x=\"{}\" y=\"{}\" font-size=\"18\">{}</text></g>\n",

@@ -183,7 +183,7 @@ std::string FloorPlanStyle() {
   return R"(.plan{--ink:#1d2329;--paper:#fff;--floor:#f7f6f2;--soft:#8b939b;--light:#c9ccd0;--glass-line:#3f7fa8;font-family:system-ui,"Segoe UI",Roboto,Helvetica,Arial,sans-serif}
 .plan .paper{fill:var(--paper)}
 .plan .floor{fill:var(--floor)}
-.plan .cut{fill:var(--ink);fill-rule:evenodd;stroke:var(--ink);stroke-width:.6}
+.plan .cut{fill:var(--ink);fill-rule:evenodd;stroke:var(--ink);stroke-width:1}
 .plan .cut-light{fill:var(--light);fill-rule:evenodd;stroke:var(--soft);stroke-width:1}
 .plan .cut-glass{fill:none;stroke:var(--glass-line);stroke-width:2}
 .plan .below{fill:none;stroke:var(--soft);stroke-width:1}
@@ -196,7 +196,7 @@ std::string FloorPlanStyle() {
 .plan .sill{stroke:var(--soft);stroke-width:1;fill:none}
 .plan .lintel{stroke:var(--soft);stroke-width:1.2;stroke-dasharray:8 5;fill:none}
 .plan text{fill:var(--ink);text-anchor:middle}
-.plan .room-name{font-weight:600}
+.plan .room-name{font-weight:600}.plan .room-name,.plan .room-area{paint-order:stroke;stroke:var(--floor);stroke-width:5;stroke-linejoin:round}
 .plan .room-area{fill:var(--soft)}
 .plan .scale{stroke:var(--ink);stroke-width:1.2}
 )";
@@ -222,7 +222,7 @@ Sheet SheetOf(const AGraph& graph, StoreyId storey) {
     for (const Vector2d& p : r.polygon) add(p, 0);
   }
   if (lo.x() > hi.x()) lo = hi = Vector2d::Zero();
-  return {lo, hi, 1.0};
+  return {lo, hi, 0.8};
 }
 
 std::string DrawFloorPlan(const AGraph& graph, StoreyId storey, const Sheet& sheet) {

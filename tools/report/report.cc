@@ -38,8 +38,8 @@ std::string Tiles(const RunInfo& info, const std::vector<WallRow>& rows) {
   const double ratio = info.scans == 0 ? 0 : 100.0 * static_cast<double>(info.localized_scans) / static_cast<double>(info.scans);
   out += Tile(fmt::format("{:.0f} %", ratio), fmt::format("of {} scans localized", info.scans));
   out += Tile(fmt::format("{} of {}", deviated, observed), "observed walls deviate");
-  out += Tile(deviated > 0 ? fmt::format("{:+.1f} cm", 100 * rows.front().surface->translation_m) : "none", "largest deviation");
-  out += Tile(fmt::format("{:+.1f} cm", 100 * info.range_bias_m), "range bias of the sensor");
+  out += Tile(deviated > 0 ? Signed(100 * rows.front().surface->translation_m, 1) + " cm" : "none", "largest deviation");
+  out += Tile(Signed(100 * info.range_bias_m, 1) + " cm", "range bias of the sensor");
   out += Tile(fmt::format("{:.0f} s", info.duration_s), fmt::format("of recording, {:.0f} ms per scan", info.ms_per_scan));
   return out + "</div>\n";
 }
@@ -60,10 +60,10 @@ std::string Figure(const AGraph& plan, StoreyId storey, const Run& run, const st
   const Sheet sheet = SheetOf(plan, storey);
   return fmt::format(
       "<figure><figcaption>{}</figcaption>\n<svg class=\"plan\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"floor plan\">\n"
-      "<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n{}<g class=\"layer-surfaces\">\n{}</g>\n<g class=\"layer-rooms\">\n{}</g>\n"
-      "<g class=\"layer-way\">\n{}</g>\n<g class=\"layer-surfaces\">\n{}</g>\n{}</svg></figure>\n",
+      "<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n{}<g class=\"layer-surfaces\">\n{}</g>\n<g class=\"layer-way\">\n{}</g>\n"
+      "<g class=\"layer-rooms\">\n{}</g>\n<g class=\"layer-surfaces\">\n{}</g>\n{}</svg></figure>\n",
       EscapeXml(plan.storeys[storey.index()].name), Decimal(sheet.width()), Decimal(sheet.height()), DrawFloorPlan(plan, storey, sheet),
-      DrawSurfaces(plan, storey, run.deviations, limit_m, sheet), DrawRoomLabels(plan, storey, sheet), DrawTrajectory(plan, storey, run, sheet),
+      DrawSurfaces(plan, storey, run.deviations, limit_m, sheet), DrawTrajectory(plan, storey, run, sheet), DrawRoomLabels(plan, storey, sheet),
       DrawWallNumbers(plan, storey, rows, sheet), DrawScaleBar(sheet));
 }
 
@@ -107,9 +107,9 @@ std::string WallRowHtml(const AGraph& plan, const WallRow& row) {
       row.number > 0 ? fmt::format("<span class=\"chip\" style=\"background:{}\">{}</span>", DeviationColor(s.translation_m, 0.01), row.number) : "";
   return fmt::format(
       "<tr{}><td class=\"t\">{}</td><td class=\"t\">{}<small>{}</small></td><td class=\"t\">{}</td><td class=\"t\">{}</td>"
-      "<td>{:+.1f} &plusmn; {:.1f}<small>{}</small></td><td>{:+.2f} &plusmn; {:.2f}</td><td>{:.3f}</td><td>{:.1f}</td><td>{:.0f}</td></tr>\n",
-      row.number > 0 ? " class=\"off\"" : "", chip, EscapeXml(wall.name), EscapeXml(s.wall_guid), storey, StatusText(s.status), 100 * s.translation_m,
-      100 * s.sigma_translation_m, Sense(plan, s), s.rotation_deg, s.sigma_rotation_deg, s.p_deviated, s.observed_m2, s.points);
+      "<td>{} &plusmn; {:.1f}<small>{}</small></td><td>{} &plusmn; {:.2f}</td><td>{:.3f}</td><td>{:.1f}</td><td>{:.0f}</td></tr>\n",
+      row.number > 0 ? " class=\"off\"" : "", chip, EscapeXml(wall.name), EscapeXml(s.wall_guid), storey, StatusText(s.status),
+      Signed(100 * s.translation_m, 1), 100 * s.sigma_translation_m, row.number > 0 ? Sense(plan, s) : "", Signed(s.rotation_deg, 2), s.sigma_rotation_deg, s.p_deviated, s.observed_m2, s.points);
 }
 
 std::string WallTable(const AGraph& plan, const std::vector<WallRow>& rows) {
@@ -135,11 +135,11 @@ std::string RoomTable(const AGraph& plan, const Deviations& deviations) {
     if (r.status == "unobserved") continue;
     const Room& room = plan.rooms[r.id.index()];
     fmt::format_to(std::back_inserter(body),
-                   "<tr{}><td class=\"t\">{}</td><td class=\"t\">{}</td><td class=\"t\">{}</td><td>{:.2f}</td><td>{:+.1f}, {:+.1f}</td><td>{:.1f}</td>"
-                   "<td>{:+.2f}</td></tr>\n",
+                   "<tr{}><td class=\"t\">{}</td><td class=\"t\">{}</td><td class=\"t\">{}</td><td>{:.2f}</td><td>{}, {}</td><td>{:.1f}</td>"
+                   "<td>{}</td></tr>\n",
                    r.status == "as_planned" ? "" : " class=\"off\"", EscapeXml(room.name),
                    room.storey.valid() ? EscapeXml(plan.storeys[room.storey.index()].name) : "", StatusText(r.status), room.area_m2,
-                   100 * r.translation_m.x(), 100 * r.translation_m.y(), 100 * r.sigma_m, r.rotation_deg);
+                   Signed(100 * r.translation_m.x(), 1), Signed(100 * r.translation_m.y(), 1), 100 * r.sigma_m, Signed(r.rotation_deg, 2));
   }
   if (body.empty()) return {};
   return fmt::format(

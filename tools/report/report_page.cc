@@ -44,9 +44,9 @@ body{max-width:none;padding:0;font-size:11px}.screen{display:none}figure,tr{brea
 
 std::string_view PageScript() {
   return R"(const pair=t=>t.split(' ').map(Number);
-function exaggerate(k){for(const g of document.querySelectorAll('.dev')){const d=g.dataset,a=pair(d.a),b=pair(d.b),u=pair(d.da),v=pair(d.db);
+function exaggerate(k){for(const e of document.querySelectorAll('.dev')){const d=e.dataset,a=pair(d.a),b=pair(d.b),u=pair(d.da),v=pair(d.db);
 const p=`${a[0]+k*u[0]} ${a[1]+k*u[1]}`,q=`${b[0]+k*v[0]} ${b[1]+k*v[1]}`;
-g.children[0].setAttribute('d',`M${d.a}L${d.b}L${q}L${p}Z`);g.children[1].setAttribute('d',`M${p}L${q}`)}}
+e.setAttribute('d',e.classList.contains('built')?`M${p}L${q}`:`M${d.a}L${d.b}L${q}L${p}Z`)}}
 for(const r of document.querySelectorAll('input[name=times]'))r.addEventListener('change',()=>exaggerate(Number(r.value)));
 for(const c of document.querySelectorAll('input[data-layer]'))c.addEventListener('change',()=>{
 for(const g of document.querySelectorAll('.'+c.dataset.layer))g.style.display=c.checked?'':'none'});
@@ -63,7 +63,7 @@ std::string LegendHtml(double limit_m) {
   const long limit_cm = std::lround(100 * limit_m);
   return fmt::format(
       R"html(<div class="legend">
-<span>&minus;{0} cm <svg width="130" height="12"><defs><linearGradient id="dev">{1}</linearGradient></defs><rect width="130" height="12" fill="url(#dev)"/></svg>+{0} cm, built further into the free space is +</span>
+<span>&minus;{0} cm <svg width="130" height="12"><defs><linearGradient id="dev">{1}</linearGradient></defs><rect width="130" height="12" fill="url(#dev)"/></svg>+{0} cm where it was built; + is further into the room</span>
 <span><svg width="28" height="12"><path d="M0 6H28" stroke="#4f9d8f" stroke-width="6"/></svg>as planned</span>
 <span><svg width="28" height="12"><path d="M2 6H28" stroke="#8b939b" stroke-width="2.5" stroke-dasharray="2 8" stroke-linecap="round"/></svg>not observed</span>
 <span><svg width="28" height="12"><path d="M0 6H28" stroke="#c2185b" stroke-width="7" stroke-dasharray="9 5"/></svg>missing</span>

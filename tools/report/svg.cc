@@ -59,6 +59,12 @@ std::string Decimal(double value) {
   return fmt::format("{:.1f}", rounded == 0 ? 0.0 : rounded);
 }
 
+std::string Signed(double value, int digits) {
+  const std::string text = fmt::format("{:.{}f}", std::abs(value), digits);
+  if (text.find_first_not_of("0.") == std::string::npos) return text;
+  return (value < 0 ? "\u2212" : "+") + text;
+}
+
 std::string DeviationColor(double translation_m, double limit_m) {
   static constexpr Color kStops[] = {{84, 39, 136}, {128, 115, 172}, {170, 165, 180}, {224, 130, 20}, {179, 88, 6}};
   return Blend(kStops, 0.5 + 0.5 * translation_m / limit_m);

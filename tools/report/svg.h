@@ -36,6 +36,9 @@ class Sheet {
 // A number with one decimal, never "-0.0".
 [[nodiscard]] std::string Decimal(double value);
 
+// With its sign, a true minus, and `digits` decimals; no sign where it rounds to zero.
+[[nodiscard]] std::string Signed(double value, int digits);
+
 // "#rrggbb" of a deviation on a scale from -limit to +limit: purple, grey, orange (told apart by all common kinds of colour blindness).
 [[nodiscard]] std::string DeviationColor(double translation_m, double limit_m);
 

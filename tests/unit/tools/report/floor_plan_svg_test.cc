@@ -52,7 +52,7 @@ TEST(FloorPlanSvg, EscapesNamesFromTheFile) {
 TEST(FloorPlanSvg, AnEmptyStoreyIsAnEmptySheet) {
   AGraph g;
   g.storeys.push_back({"s", "S", 0, 3});
-  EXPECT_THAT(FloorPlanToSvg(g, StoreyId(0)), HasSubstr("viewBox=\"0 0 200.0 200.0\""));
+  EXPECT_THAT(FloorPlanToSvg(g, StoreyId(0)), HasSubstr("viewBox=\"0 0 160.0 160.0\""));
 }
 
 TEST(Sheet, MapsPlanMetresToCentimetresWithYDown) {
@@ -60,6 +60,12 @@ TEST(Sheet, MapsPlanMetresToCentimetresWithYDown) {
   EXPECT_EQ(sheet.width(), 600);
   EXPECT_EQ(sheet.At({-1.5, 3.5}), "0.0 0.0");
   EXPECT_EQ(sheet.At({4.5, -2.5}), "600.0 600.0");
+}
+
+TEST(Signed, HasATrueMinusAndNoSignForZero) {
+  EXPECT_EQ(Signed(-20.34, 1), "\u221220.3");
+  EXPECT_EQ(Signed(1.25, 2), "+1.25");
+  EXPECT_EQ(Signed(-0.04, 1), "0.0");
 }
 
 TEST(DeviationColor, IsSymmetricAboutGreyAndClamped) {

@@ -100,7 +100,7 @@ TEST(Report, TheBuiltSurfaceIsShiftedAlongTheNormalAndTurnedAboutItsMiddle) {
   const Sheet sheet = SheetOf(house, StoreyId(0));
   // Turned by 90 degrees the wall stands upright at its middle: from y = 0.1 - 2.47 to y = 0.1 + 2.47.
   EXPECT_THAT(DrawSurfaces(house, StoreyId(0), deviations, 0.1, sheet),
-              HasSubstr("class=\"dev-built\" d=\"" + sheet.Line({2.47, -2.37}, {2.47, 2.57}) + "\""));
+              HasSubstr("class=\"dev built\" d=\"" + sheet.Line({2.47, -2.37}, {2.47, 2.57}) + "\""));
 }
 
 TEST(Report, SaysWhenNothingWasFound) {

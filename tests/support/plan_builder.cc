@@ -106,7 +106,6 @@ uint32_t PlanBuilder::Prismatic(ElementKind kind, const std::string& guid, const
   e.storey = storey_;
   e.body = Prism(ring, z_min_m, z_max_m);
   plan.elements.push_back(std::move(e));
-  lines_.push_back({});
   return static_cast<uint32_t>(plan.elements.size() - 1);
 }
 
@@ -127,7 +126,7 @@ uint32_t PlanBuilder::Opening(const std::string& guid, uint32_t wall, double alo
   PlanOpening o;
   o.guid = o.name = o.location.guid = guid;
   o.wall = wall;
-  o.body = Void(lines_[wall], along_m, width_m, lines_[wall].thickness_m + 0.02, z_min_m, z_max_m);
+  o.body = Void(lines_.at(wall), along_m, width_m, lines_.at(wall).thickness_m + 0.02, z_min_m, z_max_m);
   plan.openings.push_back(std::move(o));
   return static_cast<uint32_t>(plan.openings.size() - 1);
 }
@@ -138,9 +137,8 @@ uint32_t PlanBuilder::Fill(ElementKind kind, const std::string& guid, uint32_t w
   e.guid = e.name = e.location.guid = guid;
   e.type = "Test";
   e.storey = storey_;
-  e.body = Void(lines_[wall], along_m, width_m, 0.05, z_min_m, z_max_m);
+  e.body = Void(lines_.at(wall), along_m, width_m, 0.05, z_min_m, z_max_m);
   plan.elements.push_back(std::move(e));
-  lines_.push_back({});
   PlanOpening& o = plan.openings[Opening("opening-" + guid, wall, along_m, width_m, z_min_m, z_max_m)];
   o.filling = static_cast<uint32_t>(plan.elements.size() - 1);
   o.width_m = width_m;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 
 #include "compiler/ir/plan_ir.h"
@@ -40,7 +41,7 @@ class PlanBuilder {
   uint32_t Fill(ElementKind kind, const std::string& guid, uint32_t wall, double along_m, double width_m, double z_min_m, double z_max_m);
 
   uint32_t storey_ = compiler::kNoIndex;
-  std::vector<CentreLine> lines_;  // per element
+  std::map<uint32_t, CentreLine> lines_;  // of walls, by element
 };
 
 // The outer walls 0.3 m thick around [0,8] x [0,4] inside, an inner wall 0.2 m thick at x = 5 with door "D" (0.9 m wide, middle at y = 1.5), outer door

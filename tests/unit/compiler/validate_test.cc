@@ -62,7 +62,7 @@ TEST(ValidateGraph, FindsDoorwaysThatJoinNothing) {
 TEST(ValidateGraph, FindsSurfacesOffTheirRoom) {
   AGraph g = test::MakeHouse();
   const size_t s = g.rooms[0].surfaces[0].index();
-  g.surfaces[s].start.y() += 0.1;
+  g.surfaces[s].start.y() -= 0.1;
   EXPECT_EQ(CountOf(g, DiagnosticKind::kSurfaceOffRoom), 1u);
   g = test::MakeHouse();
   g.surfaces[s].normal *= -1;

@@ -70,7 +70,7 @@ TEST(MoveToPlanFrame, MovesEveryPlaceAndKeepsPlanes) {
 TEST(EmitProvenance, RecordsSourceToolAndDiagnostics) {
   PlanIr plan;
   plan.source_path = "a.ifc";
-  plan.source_sha256 = "ff";
+  plan.source_sha256 = std::string(64, 'f');
   DiagnosticSink sink;
   sink.Emit(DiagnosticKind::kRoomTooLow, {}, "x");
   AGraph graph;

@@ -26,7 +26,7 @@ TEST(AssignStoreys, UsesGeometryWhereTheSourceIsSilentOrWrong) {
   EXPECT_EQ(plan.elements[0].storey, 2u);
   EXPECT_EQ(plan.elements[1].storey, 0u);
   EXPECT_EQ(plan.elements[2].storey, 0u);
-  EXPECT_EQ(CountOf(sink, DiagnosticKind::kElementWithoutStorey), 1u);
+  EXPECT_EQ(CountOf(sink, DiagnosticKind::kStoreyFromGeometry), 1u);
   EXPECT_EQ(CountOf(sink, DiagnosticKind::kElementInWrongStorey), 1u);
 }
 

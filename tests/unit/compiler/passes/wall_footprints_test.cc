@@ -78,7 +78,7 @@ TEST(CutFootprints, WallsWithoutSolidAndOpenOnesAreDiagnosed) {
   b.plan.elements[open].body.triangles.erase(b.plan.elements[open].body.triangles.begin());
   DiagnosticSink sink;
   const FloorIr floors = Cut(b.plan, sink);
-  EXPECT_EQ(CountOf(sink, DiagnosticKind::kWallWithoutBody), 1u);
+  EXPECT_EQ(CountOf(sink, DiagnosticKind::kWallNotCut), 1u);
   EXPECT_EQ(CountOf(sink, DiagnosticKind::kFootprintOpen), 1u);
   ASSERT_EQ(floors.walls.size(), 1u);
   EXPECT_NEAR(RegionArea(floors.floors[0].footprints[0].rings), 1.2, 1e-3);

@@ -9,18 +9,12 @@
 #include <vector>
 
 #include "compiler/diagnostics/diagnostic.h"
+#include "compiler/geometry/solid.h"
 #include "schema/agraph.h"
 
 namespace plumb::compiler {
 
 inline constexpr uint32_t kNoIndex = 0xffffffffu;
-
-// A polygon soup in double precision; triangles index vertices, counter-clockwise seen from outside.
-struct Solid {
-  std::vector<Eigen::Vector3d> vertices;
-  std::vector<Eigen::Vector3i> triangles;
-  [[nodiscard]] bool empty() const { return triangles.empty(); }
-};
 
 struct PlanStorey {
   std::string guid, name;

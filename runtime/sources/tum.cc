@@ -68,7 +68,7 @@ std::string WriteTum(const Trajectory& trajectory) {
   out.reserve(trajectory.size() * 112);
   for (const StampedPose& pose : trajectory) {
     Eigen::Quaterniond q(pose.T.linear());
-    if (q.w() < 0) q.coeffs() = -q.coeffs();
+    if (q.w() < 0) q.coeffs() = (-q.coeffs()).array() + 0.0;  // no negative zeros
     const Eigen::Vector3d t = pose.T.translation();
     fmt::format_to(std::back_inserter(out), "{:.9f} {:.6f} {:.6f} {:.6f} {:.9f} {:.9f} {:.9f} {:.9f}\n", pose.stamp_s, t.x(), t.y(), t.z(),
                    q.x(), q.y(), q.z(), q.w());

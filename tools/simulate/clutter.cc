@@ -1,5 +1,7 @@
 #include "tools/simulate/clutter.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numbers>
 
@@ -56,7 +58,7 @@ int AddClutter(AsBuilt& built, StoreyId storey, int boxes, uint64_t seed) {
     const Box box = DrawBox(empty, floor, random);
     AGraph house = built.house;
     Element element;
-    element.name = "box " + std::to_string(placed + 1);
+    element.name = fmt::format("box {}", placed + 1);
     element.kind = ElementKind::kFurniture;
     element.storey = storey;
     house.elements.push_back(element);

@@ -30,23 +30,25 @@ std::vector<size_t> Flood(const FreeSpace& space, size_t start, std::vector<uint
 Reach ReachWithRadius(const AGraph& house, StoreyId storey, const FreeSpace& space, double radius_m) {
   Reach reach;
   reach.robot_radius_m = radius_m;
-  std::map<int16_t, size_t> middle_of;
-  for (size_t i = 0; i < space.size(); ++i) {
-    if (space.room(i) < 0 || space.clearance_m(i) < radius_m) continue;
-    const auto [it, added] = middle_of.try_emplace(space.room(i), i);
-    if (!added && space.clearance_m(i) > space.clearance_m(it->second)) it->second = i;
-  }
+  // Of a room's connected pieces the largest: others lie inside a cupboard, or behind a wall that was built inside the room.
+  std::map<int16_t, std::vector<size_t>> cells_of;
   std::vector<uint8_t> in_room(space.size(), 0);
+  for (size_t i = 0; i < space.size(); ++i) {
+    const int16_t room = space.room(i);
+    if (room < 0 || in_room[i] != 0 || space.clearance_m(i) < radius_m) continue;
+    std::vector<size_t> cells =
+        Flood(space, i, in_room, [&](size_t k) { return space.room(k) == room && space.clearance_m(k) >= radius_m; });
+    if (cells.size() > cells_of[room].size()) cells_of[room] = std::move(cells);
+  }
   for (size_t r = 0; r < house.rooms.size(); ++r) {
     if (house.rooms[r].storey != storey) continue;
     RoomFloor floor;
     floor.room = RoomId(r);
-    if (const auto it = middle_of.find(static_cast<int16_t>(r)); it != middle_of.end()) {
-      floor.middle = it->second;
-      floor.cells = Flood(space, it->second, in_room, [&](size_t i) {
-        return space.room(i) == static_cast<int16_t>(r) && space.clearance_m(i) >= radius_m;
-      });
+    if (const auto it = cells_of.find(static_cast<int16_t>(r)); it != cells_of.end()) {
+      floor.cells = std::move(it->second);
       std::sort(floor.cells.begin(), floor.cells.end());
+      const auto tighter = [&space](size_t a, size_t b) { return space.clearance_m(a) < space.clearance_m(b); };
+      floor.middle = *std::max_element(floor.cells.begin(), floor.cells.end(), tighter);
     }
     reach.rooms.push_back(std::move(floor));
   }

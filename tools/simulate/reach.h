@@ -7,7 +7,7 @@
 
 namespace plumb::tools {
 
-// The part of a room that a robot drives about in: connected cells of the room around its roomiest spot.
+// The part of a room that a robot drives about in: its largest connected piece of free floor.
 struct RoomFloor {
   RoomId room;
   std::vector<size_t> cells;  // ascending; empty: no place to stand

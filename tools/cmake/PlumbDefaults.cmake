@@ -38,6 +38,11 @@ if(PLUMB_SANITIZE)
   add_link_options(-fsanitize=${_sanitizers})
 endif()
 
+# Fuzzers see which branches an input takes only in code compiled for it.
+if(PLUMB_FUZZ)
+  add_compile_options(-fsanitize=fuzzer-no-link)
+endif()
+
 find_package(Threads REQUIRED)
 find_package(Eigen3 3.4 REQUIRED NO_MODULE)
 find_package(fmt REQUIRED)

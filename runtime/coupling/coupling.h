@@ -25,8 +25,9 @@ struct CouplingOptions {
   double min_height_overlap_ratio = 0.5;  // of the shorter of the two height bands
   double max_step_m = 0.15;         // patches of one side of a wall lie on one line within this; what does not is furniture or another wall
   double unmatched_cost_nats = 6;   // a patch that no plan surface explains better than this stays unmatched
-  double offset_tau0_m = 0.01, offset_tau1_m = 0.20;   // mixture prior: as planned, deviated
-  double yaw_tau0_rad = 0.00524, yaw_tau1_rad = 0.1396;
+  // Mixture prior, standard deviations: as planned (limits of DIN 18202 for 3 to 6 m, 16 mm, taken as three sigmas; 0.2 deg), deviated.
+  double offset_tau0_m = 0.005, offset_tau1_m = 0.20;
+  double yaw_tau0_rad = 0.0035, yaw_tau1_rad = 0.1396;
   double deviated_ratio = 0.2;      // prior probability that a wall deviates
   [[nodiscard]] std::string Check() const;  // empty, or the field, its value and the rule
 };

@@ -183,9 +183,20 @@ const Surfel* SurfelMap::Nearest(const Eigen::Vector3d& p, const Eigen::Vector3d
   search(VoxelKey(g));
   if (!neighbours) return best;
   for (int k = 0; k < 27; ++k) {
-    if (k != 13) search(VoxelKey(g + Eigen::Vector3d(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1)));
+    if (k != 13) search(VoxelKey(g + NeighbourOffset(k)));
   }
   return best;
+}
+
+void SurfelMap::Around(const Eigen::Vector3d& p, std::vector<uint32_t>* indices) const {
+  const Eigen::Vector3d g = GridPosition(p);
+  for (int k = 0; k < 27; ++k) {
+    const uint32_t voxel = index_.Find(VoxelKey(g + NeighbourOffset(k)));
+    if (voxel == VoxelIndex::kNone) continue;
+    for (uint32_t i = heads_[voxel]; i != VoxelIndex::kNone; i = surfels_[i].next) {
+      if (surfels_[i].planar) indices->push_back(i);
+    }
+  }
 }
 
 // Keeps the three quarters of the voxels seen last; of those equally long unseen, the older ones.

@@ -68,10 +68,13 @@ class SurfelMap {
   // The planar surfel nearest to p, of those that face `sensor`, in p's voxel or, with `neighbours`, in the 27 voxels about it. Null: none.
   [[nodiscard]] const Surfel* Nearest(const Eigen::Vector3d& p, const Eigen::Vector3d& sensor, bool neighbours) const;
 
+  // Appends the indices of the planar surfels in the 27 voxels about p, in a fixed order.
+  void Around(const Eigen::Vector3d& p, std::vector<uint32_t>* indices) const;
+
   // In order of creation; planar and waiting ones. Addresses change with every call that is not const.
   [[nodiscard]] const std::vector<Surfel>& surfels() const { return surfels_; }
   [[nodiscard]] size_t num_voxels() const { return heads_.size(); }
-  // Position in units of voxels of the turned grid, and the key of a cell of it.
+  // Position in units of voxels of the turned grid.
   [[nodiscard]] Eigen::Vector3d GridPosition(const Eigen::Vector3d& p) const { return R_grid_ * p; }
   [[nodiscard]] const SurfelMapOptions& options() const { return options_; }
 

@@ -20,6 +20,9 @@ namespace plumb::runtime {
   return PackVoxel(static_cast<int64_t>(std::floor(p.x())), static_cast<int64_t>(std::floor(p.y())), static_cast<int64_t>(std::floor(p.z())));
 }
 
+// The k-th, of 27, of the steps to a voxel and its neighbours; 13 is the voxel itself.
+[[nodiscard]] inline Eigen::Vector3d NeighbourOffset(int k) { return Eigen::Vector3d(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1); }
+
 // Open addressing, linear probing, at most half full. Expected O(1) per call.
 class VoxelIndex {
  public:

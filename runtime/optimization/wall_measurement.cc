@@ -6,7 +6,7 @@
 namespace plumb::runtime {
 namespace {
 
-constexpr double kPoseSigma_m = 0.005, kPoseSigma_rad = 0.002;  // between walls: what the poses add to their own observations
+constexpr double kPoseSigma_m = 0.003, kPoseSigma_rad = 0.0015;  // between walls: what the poses add to their own observations
 constexpr double kLoosePrior_m = 1.0, kLoosePrior_rad = 0.35;   // a short patch leaves the yaw open
 
 struct NormalEquations {

@@ -19,7 +19,7 @@ bool IsWall(const PlanElement& e) { return e.kind == ElementKind::kWall || e.kin
 void AddMissingStorey(PlanIr& plan, DiagnosticSink& sink) {
   double lowest = std::numeric_limits<double>::infinity(), lowest_wall = lowest;
   for (const PlanElement& e : plan.elements) {
-    const Eigen::AlignedBox3d box = BoundingBox(e.body.empty() ? e.uncut : e.body);
+    const Eigen::AlignedBox3d box = Bounds(e.body.empty() ? e.uncut : e.body);
     if (box.isEmpty()) continue;
     lowest = std::min(lowest, box.min().z());
     if (IsWall(e)) lowest_wall = std::min(lowest_wall, box.min().z());
@@ -58,7 +58,7 @@ std::string StoreyOptions::Check() const {
 void AssignStoreys(PlanIr& plan, const StoreyOptions& options, DiagnosticSink& sink) {
   if (plan.storeys.empty()) AddMissingStorey(plan, sink);
   for (PlanElement& e : plan.elements) {
-    const Eigen::AlignedBox3d box = BoundingBox(e.body.empty() ? e.uncut : e.body);
+    const Eigen::AlignedBox3d box = Bounds(e.body.empty() ? e.uncut : e.body);
     if (box.isEmpty()) {
       if (e.storey == kNoIndex) e.storey = 0;
       continue;
@@ -67,7 +67,7 @@ void AssignStoreys(PlanIr& plan, const StoreyOptions& options, DiagnosticSink& s
     if (e.storey == kNoIndex) {
       e.storey = by_geometry;
       if (IsWall(e)) {
-        sink.Emit(DiagnosticKind::kElementWithoutStorey, e.location,
+        sink.Emit(DiagnosticKind::kStoreyFromGeometry, e.location,
                   fmt::format("{} is contained in no storey; its foot at {:.2f} m puts it on `{}`", e.location.ToString(),
                               box.min().z() + plan.origin.z(), plan.storeys[by_geometry].name));
       }
@@ -81,7 +81,7 @@ void AssignStoreys(PlanIr& plan, const StoreyOptions& options, DiagnosticSink& s
     e.storey = by_geometry;
   }
   for (PlanSpace& s : plan.spaces) {
-    const Eigen::AlignedBox3d box = BoundingBox(s.body);
+    const Eigen::AlignedBox3d box = Bounds(s.body);
     if (s.storey == kNoIndex) s.storey = box.isEmpty() ? 0 : StoreyOfFoot(plan, box.min().z());
   }
 }
@@ -97,7 +97,7 @@ std::vector<Level> GroupStoreys(const PlanIr& plan, double section_height_m, con
   double highest = std::numeric_limits<double>::lowest();
   for (const PlanElement& e : plan.elements) {
     if (!IsWall(e)) continue;
-    const Eigen::AlignedBox3d box = BoundingBox(e.uncut.empty() ? e.body : e.uncut);
+    const Eigen::AlignedBox3d box = Bounds(e.uncut.empty() ? e.body : e.uncut);
     if (!box.isEmpty()) highest = std::max(highest, box.max().z());
   }
   for (size_t i = 0; i < out.size(); ++i) {

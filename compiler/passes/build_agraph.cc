@@ -44,7 +44,7 @@ void AddColumns(const PlanIr& plan, const FloorIr& floors, AGraph& graph) {
       out.name = e.name;
       out.storey = StoreyId(std::clamp(e.storey, floor.level.first_storey, floor.level.last_storey));
       out.outline = *std::max_element(f.rings.begin(), f.rings.end(), [](const Ring& a, const Ring& b) { return SignedArea(a) < SignedArea(b); });
-      const Eigen::AlignedBox3d box = BoundingBox(e.uncut.empty() ? e.body : e.uncut);
+      const Eigen::AlignedBox3d box = Bounds(e.uncut.empty() ? e.body : e.uncut);
       out.z_min_m = box.min().z();
       out.z_max_m = box.max().z();
       graph.columns.push_back(std::move(out));

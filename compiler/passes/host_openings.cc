@@ -97,7 +97,7 @@ class Host {
     for (const auto& p : c.points) c.box.extend(p);
     if (c.points.empty()) {
       const SourceLocation& where = LocationOf(c);
-      sink_.Emit(DiagnosticKind::kOpeningWithoutBody, where, fmt::format("{} has no solid to place it by; it is left out", where.ToString()));
+      sink_.Emit(DiagnosticKind::kOpeningNotPlaced, where, fmt::format("{} has no solid to place it by; it is left out", where.ToString()));
       return;
     }
     candidates_.push_back(std::move(c));

@@ -60,7 +60,7 @@ class Namer {
   SpaceOutline OutlineOf(const PlanSpace& space) const {
     SpaceOutline out;
     out.floor = FloorOf(floors_, space.storey);
-    const Eigen::AlignedBox3d box = BoundingBox(space.body);
+    const Eigen::AlignedBox3d box = Bounds(space.body);
     if (space.body.empty()) return out;
     const double section_z = floors_.floors[out.floor].level.section_z_m;
     const bool reaches = box.min().z() < section_z && section_z <= box.max().z();

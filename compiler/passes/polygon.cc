@@ -78,12 +78,6 @@ std::vector<Eigen::Vector2d> ConvexHull(std::vector<Eigen::Vector2d> points) {
 
 }  // namespace
 
-double SignedArea(const Ring& ring) {
-  double twice = 0;
-  for (size_t i = 0; i < ring.size(); ++i) twice += Cross(ring[i] - ring[0], ring[(i + 1) % ring.size()] - ring[0]);
-  return 0.5 * twice;
-}
-
 Eigen::Vector2d Centroid(std::span<const Ring> rings) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero(), mean = Eigen::Vector2d::Zero();
   double area = 0;

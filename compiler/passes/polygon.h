@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "compiler/geometry/triangulate.h"
 #include "schema/agraph.h"
 
 namespace plumb::compiler {
@@ -15,9 +16,6 @@ namespace plumb::compiler {
 [[nodiscard]] inline bool LexicographicallyLess(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return a.x() != b.x() ? a.x() < b.x() : a.y() < b.y();
 }
-
-// Positive for counter-clockwise rings.
-[[nodiscard]] double SignedArea(const Ring& ring);
 
 // Area centroid of an outer ring with clockwise holes; the mean of the points where there is no area.
 [[nodiscard]] Eigen::Vector2d Centroid(std::span<const Ring> rings);

@@ -140,10 +140,4 @@ Section CutSolid(const Solid& solid, double z_m) {
   return out;
 }
 
-Eigen::AlignedBox3d BoundingBox(const Solid& solid) {
-  Eigen::AlignedBox3d box;
-  for (const auto& v : solid.vertices) box.extend(v);
-  return box;
-}
-
 }  // namespace plumb::compiler

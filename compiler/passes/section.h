@@ -1,7 +1,6 @@
 // Horizontal sections of triangulated solids.
 #pragma once
 
-#include <Eigen/Geometry>
 #include <vector>
 
 #include "compiler/ir/plan_ir.h"
@@ -15,7 +14,5 @@ struct Section {
 
 // What `solid` has at height z_m. A vertex at that very height counts as above. Collinear points are removed.
 [[nodiscard]] Section CutSolid(const Solid& solid, double z_m);
-
-[[nodiscard]] Eigen::AlignedBox3d BoundingBox(const Solid& solid);
 
 }  // namespace plumb::compiler

@@ -25,7 +25,7 @@ std::optional<double> HeightAt(const Eigen::Vector3d& a, const Eigen::Vector3d& 
 VerticalProbe::VerticalProbe(const PlanIr& plan, std::initializer_list<ElementKind> kinds) {
   for (const PlanElement& e : plan.elements) {
     if (std::find(kinds.begin(), kinds.end(), e.kind) == kinds.end() || e.body.empty()) continue;
-    targets_.push_back({&e.body, BoundingBox(e.body)});
+    targets_.push_back({&e.body, Bounds(e.body)});
   }
 }
 

@@ -12,7 +12,7 @@ namespace {
 constexpr double kParallel = 0.9962;         // cos 5 deg
 constexpr double kStatedThickness_m = 0.01;  // how far the footprint may differ from what the source states
 // Sides that face each other over less than this share of the perimeter do not make a straight wall. A square has 1/4.
-constexpr double kMinFacingShare = 0.15;
+constexpr double kMinFacingShare = 0.1;
 
 struct FacingSides {
   double overlap_m = 0, thickness_m = 0;

@@ -71,7 +71,7 @@ class FootprintCutter {
   }
 
   void AddColumn(uint32_t e) {
-    const Eigen::AlignedBox3d box = BoundingBox(SectionSolid(plan_.elements[e]));
+    const Eigen::AlignedBox3d box = Bounds(SectionSolid(plan_.elements[e]));
     if (box.isEmpty()) return;
     for (Floor& floor : out_.floors) {
       const double z = floor.level.section_z_m;
@@ -147,9 +147,9 @@ std::vector<PlanWall> CollectWalls(const PlanIr& plan, DiagnosticSink& sink) {
   for (uint32_t i = 0; i < plan.elements.size(); ++i) {
     const PlanElement& e = plan.elements[i];
     if (!ActsAsWall(e)) continue;
-    const Eigen::AlignedBox3d box = BoundingBox(SectionSolid(e));
+    const Eigen::AlignedBox3d box = Bounds(SectionSolid(e));
     if (box.isEmpty() || SectionSolid(e).empty()) {
-      sink.Emit(DiagnosticKind::kWallWithoutBody, e.location, fmt::format("{} has no solid; it is left out", e.location.ToString()));
+      sink.Emit(DiagnosticKind::kWallNotCut, e.location, fmt::format("{} has no solid; it is left out", e.location.ToString()));
       continue;
     }
     const auto known = e.guid.empty() ? by_guid.end() : by_guid.find(e.guid);

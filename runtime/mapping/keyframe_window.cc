@@ -10,13 +10,15 @@ namespace {
 
 constexpr double kSurfelVoxel_m = 0.4;
 constexpr double kSpacing_m = 0.05;           // of the points that surfels are made of
+constexpr double kMinMinor_m = 0.07;
 constexpr size_t kMaxWindowPoints = 1500000;  // 18 MB; beyond, further scans only tell where planes are
 
 SurfelMapOptions WindowSurfels(const MapperOptions& options) {
   SurfelMapOptions surfels;
   surfels.voxel_m = kSurfelVoxel_m;
   surfels.range_sigma_m = 2.0 / 3.0 * options.plane_sigma_m;
-  surfels.max_rms_m = 1.2 * options.plane_sigma_m;
+  surfels.max_rms_m = 0.9 * options.plane_sigma_m;  // of few points; steps of 5 cm inside a surfel exceed it
+  surfels.min_minor_m = kMinMinor_m;
   surfels.max_points = std::numeric_limits<double>::infinity();
   return surfels;
 }

@@ -2,6 +2,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
@@ -14,15 +15,21 @@ namespace plumb::runtime {
 namespace {
 
 constexpr double kSin15 = 0.25881904510252074, kCos15 = 0.9659258262890683;
-constexpr double kSameNormalCos = 0.94;     // 20 degrees between a surfel and its region
-constexpr double kMaxStep_m = 0.02;         // between a surfel and its region's plane, beyond their uncertainties: door leaves are recessed by little more
+constexpr double kMaxStep_m = 0.012;        // between a surfel and its region's plane, beyond their uncertainties, ...
+constexpr double kMaxBend_rad = 0.05;       // ... and between their normals
+constexpr double kMaxUnevenness_m = 0.005;  // of a plane's surfels
+constexpr double kPartRadius_m = 0.8, kPlaneBand_m = 0.01;
+constexpr int kGrowRounds = 3;              // what uneven regions set free grows again
 constexpr double kMaxRmsSigmas = 1.5;       // of a region
 constexpr double kBandSigmas = 3.0;         // between a point and its segment's plane
+constexpr int kReach = 2;                   // voxels from a segment's surfels to points that may be its
 constexpr double kMinCosIncidence = 0.15;   // flatter rays are biased by the beam's width
 constexpr double kMinSigma_m = 0.01;
 constexpr double kMinAcross_m = 0.2;        // height of a wall segment
-constexpr double kSmallRegion = 0.2;        // of the points of another region that wants the same point
-constexpr int kMinCellPoints = 2;
+constexpr size_t kExplainStep = 3;          // every third point is enough to tell which planes are needed
+constexpr double kExplainSigmas = 2.0, kMinUnexplained = 0.5;
+constexpr std::array<double, 3> kCellOff_m = {0.02, 0.015, 0.01};  // of a cell's mean from the plane, beyond its noise; by round
+constexpr double kMinCellPoints = 2;
 constexpr double kMinCellShare = 0.25;      // of the median cell's points: less is noise beyond an edge
 constexpr double kRefitGrowth = 1.1;
 
@@ -49,9 +56,10 @@ struct Region {
     members.push_back(index);
     if (plane.count >= kRefitGrowth * plane.fitted_count) Fit();
   }
-  // Whether a surfel continues the plane: no step, as far as the plane is known there and the surfel's place is known.
+  // Whether a surfel continues the plane: no step and no bend, as far as both are known. A surfel across the step at a recessed door bends.
   [[nodiscard]] bool Takes(const Surfel& s) const {
-    if (s.normal.dot(plane.normal) < kSameNormalCos) return false;
+    const double angle_variance = s.NormalVariance(0) + plane.NormalVariance(0);
+    if (std::acos(std::min(1.0, s.normal.dot(plane.normal))) > kMaxBend_rad + 3 * std::sqrt(angle_variance)) return false;
     const double variance_m2 = plane.DistanceVariance(s.mean, 0) - plane.var_normal_m2 + s.var_normal_m2 / s.count;
     return std::abs(plane.SignedDistance(s.mean)) <= kMaxStep_m + 3 * std::sqrt(variance_m2);
   }
@@ -76,6 +84,48 @@ Region GrowRegion(const SurfelMap& map, uint32_t seed, std::vector<bool>* taken)
   return region;
 }
 
+// Mean square distance of the members' means to the region's plane: what is left when their points' noise has averaged out.
+double Unevenness(const Region& region, const SurfelMap& map) {
+  double sum_m2 = 0;
+  for (const uint32_t i : region.members) {
+    const Surfel& s = map.surfels()[i];
+    const double distance_m = region.plane.SignedDistance(s.mean);
+    sum_m2 += s.count * distance_m * distance_m;
+  }
+  return std::sqrt(sum_m2 / region.plane.count);
+}
+
+// A region of the members that pass.
+template <class Keep>
+Region Part(const Region& region, const SurfelMap& map, const Keep& keep) {
+  Region part;
+  part.plane.fitted_count = std::numeric_limits<double>::infinity();  // fitted once, below
+  for (const uint32_t i : region.members) {
+    if (keep(map.surfels()[i])) part.Add(map.surfels()[i], i);
+  }
+  if (!part.members.empty()) part.Fit();
+  return part;
+}
+
+// A wall and a door leaf a few centimetres behind it can grow into one region whose plane leans between them. Of an uneven region only the
+// largest plane that some part of it spans is kept; the other surfels are free again.
+void KeepLargestPlane(const SurfelMap& map, Region* region, std::vector<bool>* taken) {
+  if (Unevenness(*region, map) <= kMaxUnevenness_m) return;
+  Region best;
+  for (const uint32_t center : region->members) {
+    const Eigen::Vector3d at = map.surfels()[center].mean;
+    Region part = Part(*region, map, [&](const Surfel& s) { return (s.mean - at).norm() < kPartRadius_m; });
+    for (int round = 0; round < 3; ++round) {
+      part = Part(*region, map, [&](const Surfel& s) { return std::abs(part.plane.SignedDistance(s.mean)) < kPlaneBand_m; });
+    }
+    if (part.plane.count > best.plane.count) best = std::move(part);
+  }
+  if (best.members.empty()) return;
+  for (const uint32_t i : region->members) (*taken)[i] = false;
+  for (const uint32_t i : best.members) (*taken)[i] = true;
+  *region = std::move(best);
+}
+
 std::vector<Region> GrowRegions(const SurfelMap& map) {
   const std::vector<Surfel>& surfels = map.surfels();
   std::vector<uint32_t> seeds;
@@ -85,8 +135,12 @@ std::vector<Region> GrowRegions(const SurfelMap& map) {
   std::stable_sort(seeds.begin(), seeds.end(), [&](uint32_t a, uint32_t b) { return surfels[a].count > surfels[b].count; });
   std::vector<bool> taken(surfels.size(), false);
   std::vector<Region> regions;
-  for (const uint32_t seed : seeds) {
-    if (!taken[seed]) regions.push_back(GrowRegion(map, seed, &taken));
+  for (int round = 0; round < kGrowRounds; ++round) {
+    for (const uint32_t seed : seeds) {
+      if (taken[seed]) continue;
+      regions.push_back(GrowRegion(map, seed, &taken));
+      KeepLargestPlane(map, &regions.back(), &taken);
+    }
   }
   std::stable_sort(regions.begin(), regions.end(), [](const Region& a, const Region& b) { return a.plane.count > b.plane.count; });
   return regions;
@@ -104,21 +158,16 @@ struct Candidate {
   Segment segment;
   const Region* region = nullptr;
   PlaneAxes axes;
-  double band_m = 0;
-  struct Cell {
-    int count = 0;
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  };
+  double sigma_m = 0;
+  bool stays = true;
   VoxelIndex cell_index;
-  std::vector<Cell> cells;
+  std::vector<PlaneStats> cells;  // each kCell_m square
 
   void Add(const Eigen::Vector3d& p) {
-    segment.stats.Add(p);
     const double u = axes.along.dot(p) / kCell_m, v = axes.across.dot(p) / kCell_m;
     const uint32_t cell = cell_index.Insert(VoxelKey({u, v, 0})).first;
     if (cell == cells.size()) cells.emplace_back();
-    ++cells[cell].count;
-    cells[cell].sum += p;
+    cells[cell].Add(p);
   }
 };
 
@@ -133,20 +182,24 @@ std::vector<Candidate> MakeCandidates(const std::vector<Region>& regions, const 
     c.segment.kind = *kind;
     c.segment.plane = {region.plane.normal, -region.plane.normal.dot(region.plane.mean)};
     c.axes = AxesOf(c.segment.plane, *kind, up);
-    c.band_m = kBandSigmas * std::clamp(rms_m, kMinSigma_m, options.plane_sigma_m);
+    c.sigma_m = std::clamp(rms_m, kMinSigma_m, options.plane_sigma_m);
     candidates.push_back(std::move(c));
   }
   return candidates;
 }
 
-// Which candidates may own points of which voxels: those with a surfel there or next to there.
+// Which candidates may own points of which voxels: those with a surfel near there.
 class Reach {
  public:
   Reach(const std::vector<Candidate>& candidates, const SurfelMap& map) : map_(map) {
     for (uint32_t c = 0; c < candidates.size(); ++c) {
       for (const uint32_t member : candidates[c].region->members) {
         const Eigen::Vector3d g = map.GridPosition(map.surfels()[member].mean);
-        for (int k = 0; k < 27; ++k) AddTo(VoxelKey(g + NeighbourOffset(k)), c);
+        for (int x = -kReach; x <= kReach; ++x) {
+          for (int y = -kReach; y <= kReach; ++y) {
+            for (int z = -kReach; z <= kReach; ++z) AddTo(VoxelKey(g + Eigen::Vector3d(x, y, z)), c);
+          }
+        }
       }
     }
   }
@@ -166,60 +219,101 @@ class Reach {
   std::vector<std::vector<uint32_t>> candidates_;
 };
 
-// Where two planes meet, small "planes" fit the corner's rounded noise: a point that may be a large segment's is never a small one's.
-void AssignPoints(const View& view, const Reach& reach, std::vector<Candidate>* candidates) {
-  struct Match {
-    Candidate* candidate;
-    double distance_m;
-  };
-  std::vector<Match> matches;
-  for (const Eigen::Vector3f& point : view.points) {
-    const Eigen::Vector3d p = point.cast<double>();
-    const std::vector<uint32_t>* near = reach.At(p);
-    if (near == nullptr) continue;
-    const Eigen::Vector3d ray = view.sensor - p;
-    const double min_toward_m = kMinCosIncidence * ray.norm();
-    matches.clear();
-    double largest = 0;
-    for (const uint32_t i : *near) {
-      Candidate& c = (*candidates)[i];
-      const double distance_m = std::abs(c.segment.plane.SignedDistance(p));
-      if (distance_m > c.band_m || c.segment.plane.n.dot(ray) < min_toward_m) continue;
-      matches.push_back({&c, distance_m});
-      largest = std::max(largest, c.region->plane.count);
-    }
-    Match best{nullptr, std::numeric_limits<double>::infinity()};
-    for (const Match& m : matches) {
-      if (m.candidate->region->plane.count >= kSmallRegion * largest && m.distance_m < best.distance_m) best = m;
-    }
-    if (best.candidate != nullptr) best.candidate->Add(p);
+struct Match {
+  uint32_t candidate;
+  double distance_m;
+  bool steep;  // seen steeply enough to be measured
+};
+
+// The candidates in whose bands p is, on the side they are seen from.
+void FindMatches(const Eigen::Vector3d& p, const Eigen::Vector3d& sensor, const Reach& reach, const std::vector<Candidate>& candidates,
+                 double band_sigmas, std::vector<Match>* matches) {
+  matches->clear();
+  const std::vector<uint32_t>* near = reach.At(p);
+  if (near == nullptr) return;
+  const Eigen::Vector3d ray = sensor - p;
+  for (const uint32_t i : *near) {
+    const Candidate& c = candidates[i];
+    const double distance_m = std::abs(c.segment.plane.SignedDistance(p)), toward_m = c.segment.plane.n.dot(ray);
+    if (distance_m <= band_sigmas * c.sigma_m && toward_m > 0) matches->push_back({i, distance_m, toward_m >= kMinCosIncidence * ray.norm()});
   }
 }
 
-int MinCellCount(const Candidate& c) {
-  std::vector<int> counts;
-  counts.reserve(c.cells.size());
-  for (const Candidate::Cell& cell : c.cells) counts.push_back(cell.count);
+// Where two planes meet or step, small "planes" fit the noise between them. From the largest on, a candidate stays if enough of its points are
+// not already explained by those that stay.
+void KeepUnexplained(const KeyframeWindow& window, const Reach& reach, std::vector<Candidate>* candidates) {
+  std::vector<std::vector<uint32_t>> points_of(candidates->size());
+  std::vector<Match> matches;
+  uint32_t num_points = 0;
+  for (const View& view : window.views()) {
+    for (size_t i = 0; i < view.points.size(); i += kExplainStep, ++num_points) {
+      FindMatches(view.points[i].cast<double>(), view.sensor, reach, *candidates, kExplainSigmas, &matches);
+      for (const Match& m : matches) points_of[m.candidate].push_back(num_points);
+    }
+  }
+  std::vector<bool> explained(num_points, false);
+  for (size_t c = 0; c < candidates->size(); ++c) {
+    const auto unexplained = std::count_if(points_of[c].begin(), points_of[c].end(), [&](uint32_t i) { return !explained[i]; });
+    (*candidates)[c].stays = static_cast<double>(unexplained) >= kMinUnexplained * static_cast<double>(points_of[c].size()) && unexplained > 0;
+    if (!(*candidates)[c].stays) continue;
+    for (const uint32_t i : points_of[c]) explained[i] = true;
+  }
+}
+
+void AssignPoints(const View& view, const Reach& reach, std::vector<Candidate>* candidates) {
+  std::vector<Match> matches;
+  for (const Eigen::Vector3f& point : view.points) {
+    const Eigen::Vector3d p = point.cast<double>();
+    FindMatches(p, view.sensor, reach, *candidates, kBandSigmas, &matches);
+    const Match* best = nullptr;
+    for (const Match& m : matches) {
+      if ((*candidates)[m.candidate].stays && (best == nullptr || m.distance_m < best->distance_m)) best = &m;
+    }
+    if (best != nullptr && best->steep) (*candidates)[best->candidate].Add(p);
+  }
+}
+
+double MinCellCount(const std::vector<PlaneStats>& cells) {
+  std::vector<double> counts;
+  counts.reserve(cells.size());
+  for (const PlaneStats& cell : cells) counts.push_back(cell.count());
   const auto middle = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2);
   std::nth_element(counts.begin(), middle, counts.end());
-  return std::max(kMinCellPoints, static_cast<int>(kMinCellShare * *middle));
+  return std::max(kMinCellPoints, kMinCellShare * *middle);
+}
+
+// Fits the plane to the cells that lie on it and drops the others. A single point tells no door leaf from the wall 5 cm before it, a cell's mean does.
+void FitToCells(Candidate* c) {
+  for (const double off_m : kCellOff_m) {
+    PlaneStats stats;
+    for (const PlaneStats& cell : c->cells) {
+      const double limit_m = off_m + kBandSigmas * c->sigma_m / std::sqrt(cell.count());
+      if (std::abs(c->segment.plane.SignedDistance(cell.centroid())) <= limit_m) stats.Add(cell);
+    }
+    if (stats.count() < 3) return;
+    c->segment.stats = stats;
+    c->segment.plane = FitPlane(stats, c->segment.plane.n).plane;
+  }
 }
 
 // The finished segment, or none if it is too small.
 std::optional<Segment> Finish(Candidate& c, const MapperOptions& options) {
+  if (c.cells.empty()) return std::nullopt;
+  FitToCells(&c);
   if (c.segment.stats.count() < options.min_segment_points) return std::nullopt;
-  c.segment.plane = FitPlane(c.segment.stats, c.segment.plane.n).plane;
   Eigen::Vector2d lo = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity()), hi = -lo;
-  const int min_count = MinCellCount(c);
-  for (const Candidate::Cell& cell : c.cells) {
-    if (cell.count < min_count) continue;
-    const Eigen::Vector3d mean = cell.sum / cell.count;
+  const double min_count = MinCellCount(c.cells);
+  for (const PlaneStats& cell : c.cells) {
+    const Eigen::Vector3d mean = cell.centroid();
+    const double limit_m = kCellOff_m.back() + kBandSigmas * c.sigma_m / std::sqrt(cell.count());
+    if (cell.count() < min_count || std::abs(c.segment.plane.SignedDistance(mean)) > limit_m) continue;
     const Eigen::Vector2d at(c.axes.along.dot(mean), c.axes.across.dot(mean));
     lo = lo.cwiseMin(at);
     hi = hi.cwiseMax(at);
     c.segment.cells.push_back(mean.cast<float>());
   }
-  if (c.segment.cells.empty()) return std::nullopt;
+  const double area_m2 = kCell_m * kCell_m * static_cast<double>(c.segment.cells.size());
+  if (c.segment.cells.empty() || area_m2 < options.min_segment_extent_m * options.min_segment_extent_m) return std::nullopt;
   const Eigen::Vector2d size_m = hi - lo + Eigen::Vector2d::Constant(kCell_m);
   const double min_across_m = c.segment.kind == SurfaceKind::kWall ? std::min(kMinAcross_m, options.min_segment_extent_m) : options.min_segment_extent_m;
   if (size_m.x() < options.min_segment_extent_m || size_m.y() < min_across_m) return std::nullopt;
@@ -245,6 +339,7 @@ std::vector<Segment> ExtractSegments(const KeyframeWindow& window, const MapperO
   const std::vector<Region> regions = GrowRegions(window.surfels());
   std::vector<Candidate> candidates = MakeCandidates(regions, up, options);
   const Reach reach(candidates, window.surfels());
+  KeepUnexplained(window, reach, &candidates);
   for (const View& view : window.views()) AssignPoints(view, reach, &candidates);
   std::vector<Segment> segments;
   for (Candidate& c : candidates) {

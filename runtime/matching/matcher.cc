@@ -172,10 +172,10 @@ MatchResult Matcher::Match(const SGraph& map) const {
     return result;
   }
   const std::vector<Candidate> finalists = search.Finalists(view);
-  const Eigen::Vector3d& origin = search.plan.plan().origin;
-  result = Decide(finalists, view, origin, search.options);
+  const AGraph& plan = search.plan.plan();
+  result = Decide(finalists, view, plan, search.options);
   if (result.verdict != MatchResult::Verdict::kUnique) return result;
-  return Decide(finalists, view, origin, search.options, impl_->MirroredLikelihood(view, finalists.front().fit.pose));
+  return Decide(finalists, view, plan, search.options, impl_->MirroredLikelihood(view, finalists.front().fit.pose));
 }
 
 double Matcher::Score(const SGraph& map, const Eigen::Isometry3d& T_plan_map) const {

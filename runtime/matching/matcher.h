@@ -27,9 +27,9 @@ struct MatcherOptions {
   double accept_margin_nats = 10.0;
   double accept_sigma_xy_m = 0.10;
   double accept_sigma_yaw_rad = 0.0087;
-  int accept_min_planes = 5;                  // of the plan's walls that the map agrees with: fewer fit many buildings by chance
-  double accept_min_consistent_ratio = 0.45;  // of the map's wall length; the rest may be furniture and deviated walls
-  double accept_max_through_ratio = 0.03;     // of the rays: may pass through walls of the plan
+  int accept_min_planes = 5;                  // of the plan's walls that the map agrees with; one more for 4 rooms, two for 32, ...
+  double accept_min_consistent_ratio = 0.35;  // of the map's wall length; the rest may be furniture and deviated walls
+  double accept_max_through_ratio = 0.02;     // of the rays: may pass through walls of the plan
   double accept_scale_error = 0.02;           // the building's size against the plan's, with two sigmas
   [[nodiscard]] std::string Check() const;
 };

@@ -8,7 +8,7 @@
 namespace plumb::runtime {
 namespace {
 
-constexpr double kSamePlane_m = 0.10, kSameNormal = 0.999;
+constexpr double kSamePlane_m = 0.05, kSameDoor_m = 0.2, kSameNormal = 0.999;
 constexpr double kOwnMirrorRatio = 0.97;  // of the wall length
 
 }  // namespace
@@ -68,7 +68,16 @@ bool IsOwnMirrorImage(const PlanIndex& plan, const PlanarPose& pose, const Plana
     }
     onto_m += std::min(covered_m, face.length_m);
   }
-  return onto_m >= kOwnMirrorRatio * total_m;
+  if (onto_m < kOwnMirrorRatio * total_m) return false;
+  const std::vector<Doorway>& doorways = plan.plan().doorways;
+  const Eigen::Vector3d& origin = plan.plan().origin;
+  return std::all_of(doorways.begin(), doorways.end(), [&](const Doorway& d) {
+    const Eigen::Vector2d at = reflect((d.position - origin).head<2>());
+    return std::any_of(doorways.begin(), doorways.end(), [&](const Doorway& other) {
+      const Eigen::Vector3d v = other.position - origin;
+      return (v.head<2>() - at).norm() < kSameDoor_m && std::abs(v.z() + origin.z() - d.position.z()) < kSameDoor_m;
+    });
+  });
 }
 
 }  // namespace plumb::runtime

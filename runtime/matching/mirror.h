@@ -14,7 +14,7 @@ namespace plumb::runtime {
 [[nodiscard]] AGraph MirrorImage(const AGraph& plan);
 
 // A map at `pose` in the plan and at `mirrored_pose` in its mirror image relates the two by a reflection of the plan. True if that takes
-// (nearly) all walls of the plan onto walls of it: then the mirror image is the plan itself. O(faces^2).
+// (nearly) all walls of the plan onto walls of it, and its doorways onto doorways: then the mirror image is the plan itself. O(faces^2).
 [[nodiscard]] bool IsOwnMirrorImage(const PlanIndex& plan, const PlanarPose& pose, const PlanarPose& mirrored_pose);
 
 }  // namespace plumb::runtime

@@ -64,13 +64,17 @@ std::vector<Candidate> SortAndMerge(std::vector<Candidate> candidates) {
   return kept;
 }
 
-std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, const MatcherOptions& options) {
+int RequiredPlanes(size_t num_rooms, const MatcherOptions& options) {
+  return options.accept_min_planes + static_cast<int>(std::lround(std::log10(std::max<double>(1, static_cast<double>(num_rooms)))));
+}
+
+std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, int required_planes, const MatcherOptions& options) {
   const WallFit& fit = candidate.fit;
   if (hypothesis.sigma_xy_m > options.accept_sigma_xy_m || hypothesis.sigma_yaw_rad > options.accept_sigma_yaw_rad) {
     return "too few walls agree to fix the position in every direction";
   }
-  if (fit.consistent_planes < options.accept_min_planes) {
-    return fmt::format("only {} wall planes agree with the plan, {} are asked for", fit.consistent_planes, options.accept_min_planes);
+  if (fit.consistent_planes < required_planes) {
+    return fmt::format("only {} wall planes agree with the plan, {} are asked for", fit.consistent_planes, required_planes);
   }
   if (fit.consistent_ratio < options.accept_min_consistent_ratio) {
     return fmt::format("only {:.0f} % of the walls seen agree with the plan", 100 * fit.consistent_ratio);
@@ -84,15 +88,15 @@ std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, cons
   return {};
 }
 
-MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, const Eigen::Vector3d& origin,
-                   const MatcherOptions& options, double mirrored) {
+MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, const AGraph& plan, const MatcherOptions& options,
+                   double mirrored) {
   MatchResult result;
   if (sorted.empty()) {
     result.reason = "no pose in the plan puts the map's walls on planned ones";
     return result;
   }
   const size_t n = std::min(sorted.size(), static_cast<size_t>(options.keep_hypotheses));
-  for (size_t i = 0; i < n; ++i) result.hypotheses.push_back(ToHypothesis(sorted[i], map, origin));
+  for (size_t i = 0; i < n; ++i) result.hypotheses.push_back(ToHypothesis(sorted[i], map, plan.origin));
   SetProbabilities(result, std::max(0.0, mirrored));
   const Hypothesis& best = result.hypotheses.front();
   if (best.log_likelihood < options.accept_margin_nats) {
@@ -103,7 +107,7 @@ MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, con
     result.reason = fmt::format("a mirror image of the plan fits about as well ({:+.1f} nats)", mirrored - best.log_likelihood);
     return result;
   }
-  result.reason = Doubt(sorted.front(), best, options);
+  result.reason = Doubt(sorted.front(), best, RequiredPlanes(plan.rooms.size(), options), options);
   if (!result.reason.empty()) return result;
   const auto rivals = std::count_if(result.hypotheses.begin() + 1, result.hypotheses.end(), [&](const Hypothesis& h) {
     return best.log_likelihood - h.log_likelihood < options.accept_margin_nats;

@@ -22,12 +22,16 @@ struct Candidate {
 // Best first; of those that are about the same pose only the best.
 [[nodiscard]] std::vector<Candidate> SortAndMerge(std::vector<Candidate> candidates);
 
-// `sorted`: from SortAndMerge. Poses are given as T_plan_map with `origin` and the map's centre put back.
+// `sorted`: from SortAndMerge. Poses are given as T_plan_map, AGraph::origin and the map's centre put back.
 // `mirrored`: log-likelihood of the best pose in the plan's mirror image; "outside the plan" is at least as likely.
-[[nodiscard]] MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, const Eigen::Vector3d& origin,
+[[nodiscard]] MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, const AGraph& plan,
                                  const MatcherOptions& options, double mirrored = 0);
 
+// Planes that must agree in a plan of so many rooms: the more there are, the more of them look alike by chance.
+[[nodiscard]] int RequiredPlanes(size_t num_rooms, const MatcherOptions& options);
+
 // Why this pose alone, rivals aside, is not yet trusted; empty if it is.
-[[nodiscard]] std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, const MatcherOptions& options);
+[[nodiscard]] std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, int required_planes,
+                                const MatcherOptions& options);
 
 }  // namespace plumb::runtime

@@ -16,7 +16,7 @@ constexpr double kMinIncidence = 0.25;
 constexpr double kNormalsAgree = 2.5, kNormalsDiffer = 0.1;
 constexpr double kSameNormal = 0.94;       // cosine of 20 degrees
 // What a wrong plan still gains per judged ray at the pose that suits it best. It is the price of "in the plan".
-constexpr double kForeignGain = 1.0;
+constexpr double kForeignGain = 0.5;
 
 double Gaussian(double x, double sigma) {
   const double t = x / sigma;

@@ -19,7 +19,7 @@ constexpr double kFullVoteLength_m = 2.0;                // longer walls do not 
 constexpr double kMinFaceOverlap_m = 0.5;
 constexpr double kGroupWidth_m = 0.12;
 constexpr double kDirectionWidth_rad = 0.26;
-constexpr double kMinMajority = 1.5, kMinMajorityMargin = 0.5;  // in walls
+constexpr double kMinMajority = 1.5, kMinMajorityMargin = 0.75;  // in walls
 constexpr size_t kMaxConsensusGroups = 24;
 
 // The pairs of one physical wall: they move together, so they vote once.

@@ -88,6 +88,7 @@ struct Odometry::Impl {
     m.voxel_m = o.voxel_m;
     m.range_sigma_m = o.range_sigma_m;
     m.max_rms_m = 1.75 * o.range_sigma_m;
+    m.min_minor_m = 2 * o.range_sigma_m;
     m.max_voxels = static_cast<size_t>(o.max_voxels);
     return m;
   }

@@ -12,7 +12,6 @@ constexpr double kGateSigmas = 3.0;
 constexpr double kSameNormalCos = 0.94;     // 20 degrees
 constexpr double kRefitGrowth = 1.15;       // a plane is fitted again when its points have grown by this
 constexpr double kGiveUpCount = 150;        // waiting points that span no plane by then never will
-constexpr double kMinorToNormal = 4.0;      // variance ratio below which points are a line or a cloud, not a plane
 
 int DominantAxis(const Eigen::Vector3d& v) {
   int axis = 0;
@@ -108,7 +107,7 @@ void SurfelMap::FitPlane(uint32_t index) {
   eigen.computeDirect(s.scatter / s.count);
   const Eigen::Vector3d variances = eigen.eigenvalues().cwiseMax(1e-12);
   const double noise_m2 = std::max(variances[0], options_.range_sigma_m * options_.range_sigma_m);
-  const bool is_plane = std::sqrt(variances[0]) <= options_.max_rms_m && variances[1] >= kMinorToNormal * noise_m2 &&
+  const bool is_plane = std::sqrt(variances[0]) <= options_.max_rms_m && variances[1] >= options_.min_minor_m * options_.min_minor_m &&
                         noise_m2 <= options_.max_normal_sigma_rad * options_.max_normal_sigma_rad * s.count * variances[1];
   if (!s.planar && !is_plane) {
     if (s.count >= kGiveUpCount) {

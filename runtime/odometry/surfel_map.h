@@ -23,6 +23,7 @@ struct SurfelMapOptions {
   double range_sigma_m = 0.02;    // noise of a single return
   int min_points = 6;             // of a surfel
   double max_rms_m = 0.035;       // points' rms about the plane; beyond this it is no plane
+  double min_minor_m = 0.04;      // points' standard deviation across the plane's narrow side; less is a line, or a corner's rounded noise
   double max_normal_sigma_rad = 0.1;
   double max_points = 1000;       // a surfel with so many no longer changes: what was seen first holds, later drift does not move it
   size_t max_voxels = 400000;     // beyond, the voxels unseen for longest are forgotten (about 1 kB each)

@@ -7,6 +7,7 @@
 
 #ifdef PLUMB_WITH_COMPILER
 #include "compiler/compile.h"
+#include "compiler/validate.h"
 #endif
 #include "schema/agraph_reader.h"
 #include "schema/files.h"
@@ -26,49 +27,57 @@ bool IsAGraph(const std::string& path, const std::vector<uint8_t>& bytes) {
   return path.ends_with(".agraph") || (bytes.size() >= 8 && std::equal(std::begin(kIdentifier), std::end(kIdentifier), bytes.begin() + 4));
 }
 
-Status ValidateAGraph(const ValidateFlags& flags, const std::vector<uint8_t>& bytes, Session& session) {
-  const auto graph = ReadAGraph(bytes);
-  if (flags.json) {
-    nlohmann::ordered_json out;
-    out["source"] = flags.path;
-    out["diagnostics"] = nlohmann::ordered_json::array();
-    if (!graph) {
-      out["diagnostics"].push_back(
-          {{"code", fmt::format("E{}", static_cast<int>(graph.error().code))}, {"severity", "error"}, {"message", graph.error().message}});
-    }
-    session.console.Print(out.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n");
-  }
-  if (!graph) return session.Fail(graph.error());
-  session.console.Info(fmt::format("{}: a sound A-Graph, {} rooms, {} surfaces", flags.path, graph->rooms.size(), graph->surfaces.size()));
+#ifdef PLUMB_WITH_COMPILER
+using compiler::Diagnostic;
+
+Status Judge(const ValidateFlags& flags, const std::vector<Diagnostic>& diagnostics, Session& session) {
+  session.console.Print(flags.json ? compiler::DiagnosticsToJson(diagnostics, flags.path)
+                                   : compiler::DiagnosticsToText(diagnostics, flags.path, std::max<size_t>(1, diagnostics.size())));
+  const Severity gravest_allowed = flags.strict ? Severity::kRemark : Severity::kWarning;
+  const bool sound = std::all_of(diagnostics.begin(), diagnostics.end(),
+                                 [&](const Diagnostic& d) { return compiler::SeverityOf(d.kind) <= gravest_allowed; });
+  if (sound) session.console.Info(flags.path + ": sound");
+  return sound ? Status::kFine : Status::kFindings;
+}
+
+Status ValidateAGraph(const ValidateFlags& flags, const AGraph& graph, Session& session) {
+  return Judge(flags, compiler::ValidateGraph(graph), session);
+}
+
+Status ValidatePlan(const ValidateFlags& flags, Session& session) {
+  const compiler::CompileResult result = compiler::Compile(flags.path);
+  const Status status = Judge(flags, result.diagnostics.all(), session);
+  if (!result.graph) return session.Fail({ErrorCode::kPlanUnsuitable, fmt::format("`{}` gives no A-Graph", flags.path)});
+  return status;
+}
+#else
+// Without the compiler's checks an A-Graph that the reader takes is sound.
+Status ValidateAGraph(const ValidateFlags& flags, const AGraph&, Session& session) {
+  if (flags.json) session.console.Print(nlohmann::ordered_json{{"source", flags.path}, {"diagnostics", nlohmann::ordered_json::array()}}.dump(1) + "\n");
+  session.console.Info(flags.path + ": readable");
   return Status::kFine;
 }
 
-#ifdef PLUMB_WITH_COMPILER
 Status ValidatePlan(const ValidateFlags& flags, Session& session) {
-  const compiler::CompileResult result = compiler::Compile(flags.path);
-  const auto& diagnostics = result.diagnostics.all();
-  if (flags.json) {
-    session.console.Print(compiler::DiagnosticsToJson(diagnostics, flags.path));
-  } else {
-    session.console.Print(compiler::DiagnosticsToText(diagnostics, flags.path, diagnostics.size()));
-  }
-  if (!result.graph) return session.Fail({ErrorCode::kPlanUnsuitable, fmt::format("`{}` gives no A-Graph", flags.path)});
-  if (result.diagnostics.has_errors()) return Status::kFindings;
-  if (flags.strict && result.diagnostics.Count(Severity::kWarning) > 0) return Status::kFindings;
-  session.console.Info(fmt::format("{}: a sound plan", flags.path));
-  return Status::kFine;
+  return session.Fail({ErrorCode::kNotAnAGraph, fmt::format("`{}` is no A-Graph, and this program was built without the compiler", flags.path)});
 }
 #endif
+
+// A file that cannot be read as an A-Graph, in the form that diagnostics have.
+std::string UnreadableJson(const std::string& path, const Error& error) {
+  nlohmann::ordered_json out;
+  out["source"] = path;
+  out["diagnostics"] = {{{"code", fmt::format("E{}", static_cast<int>(error.code))}, {"severity", "error"}, {"message", error.message}}};
+  return out.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
 
 Status RunValidate(const ValidateFlags& flags, Session& session) {
   const auto bytes = ReadFileBytes(flags.path);
   if (!bytes) return session.Fail(bytes.error());
-  if (IsAGraph(flags.path, *bytes)) return ValidateAGraph(flags, *bytes, session);
-#ifdef PLUMB_WITH_COMPILER
-  return ValidatePlan(flags, session);
-#else
-  return session.Fail({ErrorCode::kNotAnAGraph, fmt::format("`{}` is no A-Graph, and this program was built without the compiler", flags.path)});
-#endif
+  if (!IsAGraph(flags.path, *bytes)) return ValidatePlan(flags, session);
+  const auto graph = ReadAGraph(*bytes);
+  if (!graph && flags.json) session.console.Print(UnreadableJson(flags.path, graph.error()));
+  return graph ? ValidateAGraph(flags, *graph, session) : session.Fail(graph.error());
 }
 
 }  // namespace

@@ -1,0 +1,51 @@
+// IfcCurve as polylines: what profiles, sweeps and edges are made of. Metres.
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "compiler/frontends/ifc/ifc_model.h"
+#include "compiler/frontends/ifc/ifc_placement.h"
+#include "compiler/geometry/triangulate.h"
+#include "schema/agraph.h"
+
+namespace plumb::compiler {
+
+struct CurvePoints {
+  Ring3 points;            // 2D curves at z = 0; a closed curve ends where it began
+  std::vector<Arc> arcs;   // circular arcs that lie in the xy plane, exact
+};
+
+class CurveReader {
+ public:
+  CurveReader(const IfcModel& model, const PlacementReader& placements, double chord_tolerance_m)
+      : model_(model), placements_(placements), chord_tolerance_m_(chord_tolerance_m) {}
+
+  // IfcPolyline, IfcIndexedPolyCurve, IfcCompositeCurve, IfcTrimmedCurve of lines and conics, IfcCircle, IfcEllipse, IfcBSplineCurveWithKnots.
+  // Empty, with an UnsupportedGeometry diagnostic, for others.
+  [[nodiscard]] CurvePoints Read(const IfcInstance& curve) const { return Read(curve, 0); }
+
+  // The same without its repeated points and as a ring in the xy plane.
+  [[nodiscard]] Ring2 ReadRing(const IfcInstance& curve, std::vector<Arc>* arcs) const;
+
+  // The curve from `start` to `end` as far as it is a conic: the edges of advanced faces. Straight for other curves.
+  [[nodiscard]] Ring3 ReadBetween(const IfcInstance& curve, const Eigen::Vector3d& start, const Eigen::Vector3d& end, bool same_sense) const;
+
+  [[nodiscard]] std::vector<Eigen::Vector3d> PointList(const IfcInstance& list) const;  // IfcCartesianPointList2D and 3D
+
+ private:
+  [[nodiscard]] CurvePoints Read(const IfcInstance& curve, int depth) const;
+  [[nodiscard]] CurvePoints Composite(const IfcInstance& curve, int depth) const;
+  [[nodiscard]] CurvePoints Trimmed(const IfcInstance& curve, int depth) const;
+  [[nodiscard]] CurvePoints Indexed(const IfcInstance& curve) const;
+  [[nodiscard]] CurvePoints Conic(const IfcInstance& conic, double start_rad, double sweep_rad) const;
+  [[nodiscard]] CurvePoints Spline(const IfcInstance& curve) const;
+  [[nodiscard]] double AngleOnConic(const IfcInstance& conic, const Eigen::Vector3d& p) const;
+  void AddArcThrough(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, CurvePoints& out) const;
+
+  const IfcModel& model_;
+  const PlacementReader& placements_;
+  double chord_tolerance_m_;
+};
+
+}  // namespace plumb::compiler

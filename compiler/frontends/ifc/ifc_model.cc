@@ -1,0 +1,118 @@
+#include "compiler/frontends/ifc/ifc_model.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+namespace plumb::compiler {
+namespace {
+
+constexpr std::string_view kTypeNames[] = {
+    "",
+#define PLUMB_IFC_TYPE(name) #name,
+#include "compiler/frontends/ifc/ifc_types.def"
+#undef PLUMB_IFC_TYPE
+};
+constexpr uint16_t kNoFileType = 0xffff;
+constexpr size_t kGuidLength = 22;
+
+char Upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
+
+bool EqualsIgnoringCase(std::string_view a, std::string_view b) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return Upper(x) == Upper(y); });
+}
+
+}  // namespace
+
+IfcModel::IfcModel(StepFile file, DiagnosticSink& diagnostics) : file_(std::move(file)), diagnostics_(&diagnostics) {
+  types_.assign(file_.type_count(), IfcType::kUnknown);
+  file_types_.assign(std::size(kTypeNames), kNoFileType);
+  for (size_t t = 0; t < file_.type_count(); ++t) {
+    const std::string& name = file_.type_name(static_cast<uint16_t>(t));
+    for (size_t k = 1; k < std::size(kTypeNames); ++k) {
+      if (!EqualsIgnoringCase(kTypeNames[k], name)) continue;
+      types_[t] = static_cast<IfcType>(k);
+      file_types_[k] = static_cast<uint16_t>(t);
+      break;
+    }
+  }
+}
+
+std::optional<IfcModel> IfcModel::Open(std::string_view text, DiagnosticSink& diagnostics) {
+  std::optional<StepFile> file = StepFile::Index(text, diagnostics);
+  if (!file) return std::nullopt;
+  const std::string& schema = file->schema_name();
+  if (!schema.starts_with("IFC2X") && !schema.starts_with("IFC4")) {
+    diagnostics.Emit(DiagnosticKind::kUnknownSchema, {},
+                     schema.empty() ? std::string("the header states no schema; FILE_SCHEMA must name IFC2X, IFC2X3, IFC4 or IFC4X3")
+                                    : fmt::format("the schema is `{}`; IFC2X, IFC2X3, IFC4 and IFC4X3 are read", schema),
+                     "export the plan as IFC4 or IFC2X3");
+    return std::nullopt;
+  }
+  return IfcModel(std::move(*file), diagnostics);
+}
+
+std::string IfcModel::TypeName(uint32_t index) const {
+  const IfcType type = TypeOf(index);
+  return type == IfcType::kUnknown ? file_.type_name(file_.type(index)) : std::string(kTypeNames[static_cast<size_t>(type)]);
+}
+
+std::span<const uint32_t> IfcModel::InstancesOf(IfcType type) const {
+  const uint16_t file_type = file_types_[static_cast<size_t>(type)];
+  return file_type == kNoFileType ? std::span<const uint32_t>() : file_.InstancesOf(file_type);
+}
+
+uint32_t IfcModel::Resolve(StepValue reference) const {
+  const std::optional<uint64_t> id = reference.Reference();
+  if (!id) return StepFile::kNone;
+  const uint32_t index = file_.Find(*id);
+  if (index == StepFile::kNone && missing_ids_.insert(*id).second) {
+    SourceLocation location;
+    location.step_id = *id;
+    diagnostics_->Emit(DiagnosticKind::kMissingReference, location, fmt::format("`#{}` is referred to, but the file has no such instance", *id));
+  }
+  return index;
+}
+
+IfcInstance IfcModel::Follow(StepValue reference) const {
+  const uint32_t index = Resolve(reference);
+  return index == StepFile::kNone ? IfcInstance() : Get(index);
+}
+
+double IfcModel::Number(const IfcInstance& instance, size_t attribute_index, double fallback) const {
+  const StepValue value = instance[attribute_index];
+  if (value.is_null() || value.kind() == StepValue::Kind::kDerived) return fallback;
+  const std::optional<double> number = value.Real();
+  if (number && std::isfinite(*number)) return *number;
+  Emit(DiagnosticKind::kBadAttribute, instance.index, fmt::format("attribute {} of {} is no number; it is taken as {}", attribute_index + 1, Label(instance.index), fallback));
+  return fallback;
+}
+
+double IfcModel::Length(const IfcInstance& instance, size_t attribute_index, double fallback) const {
+  return Number(instance, attribute_index, fallback / length_scale_) * length_scale_;
+}
+
+SourceLocation IfcModel::Location(uint32_t index) const {
+  if (index == StepFile::kNone) return {};
+  SourceLocation location;
+  location.line = file_.Line(index);
+  location.step_id = file_.id(index);
+  location.type = TypeName(index);
+  const StepValue first = file_.Arguments(index)[attribute::kGlobalId];
+  if (first.kind() == StepValue::Kind::kString) {
+    std::string guid = first.Text();
+    if (guid.size() == kGuidLength) location.guid = std::move(guid);
+  }
+  return location;
+}
+
+std::string IfcModel::Label(uint32_t index) const { return fmt::format("`#{} {}`", file_.id(index), TypeName(index)); }
+
+void IfcModel::Emit(DiagnosticKind kind, uint32_t index, std::string message, std::string hint) const {
+  diagnostics_->Emit(kind, Location(index), std::move(message), std::move(hint));
+}
+
+}  // namespace plumb::compiler

@@ -1,0 +1,75 @@
+// An IFC file as instances with types, over the STEP index: what all parts of the frontend look things up in.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "compiler/diagnostics/diagnostic.h"
+#include "compiler/frontends/ifc/ifc_attributes.h"
+#include "compiler/frontends/ifc/step_file.h"
+
+namespace plumb::compiler {
+
+enum class IfcType : uint16_t {
+  kUnknown,
+#define PLUMB_IFC_TYPE(name) k##name,
+#include "compiler/frontends/ifc/ifc_types.def"
+#undef PLUMB_IFC_TYPE
+};
+
+// One instance: its type and arguments. False: there is none.
+struct IfcInstance {
+  uint32_t index = StepFile::kNone;
+  IfcType type = IfcType::kUnknown;
+  StepArguments arguments;
+  explicit operator bool() const { return index != StepFile::kNone; }
+  StepValue operator[](size_t attribute_index) const { return arguments[attribute_index]; }
+};
+
+class IfcModel {
+ public:
+  // Indexes `text`, which must outlive the model. None: it is no IFC file of a known release, and an error says so.
+  [[nodiscard]] static std::optional<IfcModel> Open(std::string_view text, DiagnosticSink& diagnostics);
+
+  [[nodiscard]] const StepFile& file() const { return file_; }
+  [[nodiscard]] uint32_t size() const { return file_.size(); }
+  [[nodiscard]] const std::string& schema_name() const { return file_.schema_name(); }
+  [[nodiscard]] IfcType TypeOf(uint32_t index) const { return types_[file_.type(index)]; }
+  [[nodiscard]] std::string TypeName(uint32_t index) const;  // "IfcWall"; in capitals for types that the frontend does not tell apart
+  [[nodiscard]] std::span<const uint32_t> InstancesOf(IfcType type) const;
+
+  [[nodiscard]] IfcInstance Get(uint32_t index) const { return {index, TypeOf(index), file_.Arguments(index)}; }
+  // What a reference leads to. None: the value is no reference, or (MissingReference) the file has no such id.
+  [[nodiscard]] IfcInstance Follow(StepValue reference) const;
+  [[nodiscard]] uint32_t Resolve(StepValue reference) const;  // the same, StepFile::kNone for none
+
+  // Numbers in metres and radians; `fallback` where the attribute is unset or (BadAttribute) no number.
+  [[nodiscard]] double Length(const IfcInstance& instance, size_t attribute_index, double fallback = 0) const;
+  [[nodiscard]] double Number(const IfcInstance& instance, size_t attribute_index, double fallback = 0) const;
+  [[nodiscard]] double length_scale() const { return length_scale_; }  // metres in a unit of the file
+  [[nodiscard]] double angle_scale() const { return angle_scale_; }    // radians in a unit of the file
+  void SetUnits(double length_scale, double angle_scale) { length_scale_ = length_scale, angle_scale_ = angle_scale; }
+
+  [[nodiscard]] SourceLocation Location(uint32_t index) const;
+  // `#12 IfcDoor`, as messages name an instance.
+  [[nodiscard]] std::string Label(uint32_t index) const;
+  void Emit(DiagnosticKind kind, uint32_t index, std::string message, std::string hint = {}) const;
+  [[nodiscard]] DiagnosticSink& diagnostics() const { return *diagnostics_; }
+
+ private:
+  IfcModel(StepFile file, DiagnosticSink& diagnostics);
+
+  StepFile file_;
+  DiagnosticSink* diagnostics_;
+  std::vector<IfcType> types_;              // by the file's type number
+  std::vector<uint16_t> file_types_;        // the file's type number by IfcType, or kNoFileType
+  mutable std::set<uint64_t> missing_ids_;  // reported already
+  double length_scale_ = 1, angle_scale_ = 1;
+};
+
+}  // namespace plumb::compiler

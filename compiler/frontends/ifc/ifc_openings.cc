@@ -1,0 +1,96 @@
+#include "compiler/frontends/ifc/ifc_openings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <tuple>
+
+#include "compiler/geometry/csg.h"
+
+namespace plumb::compiler {
+namespace {
+
+constexpr double kMinRemoved_m3 = 1e-9, kMinPiece_m3 = 1e-4;
+
+}  // namespace
+
+bool CutOpening(const IfcModel& model, CutPair pair, const IfcOptions& options, const Solid& tool, Solid& body) {
+  if (body.empty() || !Bounds(body).intersects(Bounds(tool))) return false;
+  const CsgOptions csg{.plane_epsilon_m = options.plane_epsilon_m};
+  // Bodies cut before have T-junctions: closedness is a question for the enclosed volume, not for edges.
+  const double volume_m3 = Volume(body), tool_m3 = Volume(tool);
+  const bool is_solid = volume_m3 > kMinRemoved_m3;
+  Expected<Solid> rest = is_solid ? Subtract(body, tool, csg) : ClipOutside(body, tool, csg);
+  const auto leave_out = [&](const std::string& why) {
+    model.Emit(DiagnosticKind::kBooleanFailed, pair.opening,
+               fmt::format("the opening {} is not cut out of {}: {}", model.Label(pair.opening), model.Label(pair.host), why));
+    return false;
+  };
+  if (!rest) return leave_out(rest.error().message);
+  if (!is_solid) {
+    const bool cuts = SurfaceArea(*rest) < SurfaceArea(body);
+    body = std::move(*rest);
+    return cuts;
+  }
+  const double removed_m3 = volume_m3 - Volume(*rest);
+  const double tolerance_m3 = 1e-6 + 1e-6 * volume_m3;
+  if (removed_m3 < -tolerance_m3 || removed_m3 > std::min(volume_m3, tool_m3) + tolerance_m3) {
+    return leave_out(fmt::format("that would take away {:.6f} m3 of {:.6f} m3", removed_m3, volume_m3));
+  }
+  body = std::move(*rest);
+  return removed_m3 > kMinRemoved_m3;
+}
+
+Solid PieceCutBefore(const Solid& opening, const Eigen::Isometry3d& T_plan_wall, const Solid& wall, const IfcOptions& options) {
+  constexpr double kMaxThickness_m = 1, kMinLengthRatio = 2;
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& v : wall.vertices) box.extend(T_plan_wall.inverse() * v);
+  if (box.isEmpty()) return {};
+  const double x_m = box.sizes().x(), y_m = box.sizes().y();
+  if (std::min(x_m, y_m) > kMaxThickness_m || std::max(x_m, y_m) < kMinLengthRatio * std::min(x_m, y_m)) return {};
+  const Solid whole = MakeBox(box.min(), box.max(), Eigen::Affine3d(T_plan_wall.matrix()));
+  const CsgOptions csg{.plane_epsilon_m = options.plane_epsilon_m};
+  const Expected<Solid> outside = Subtract(whole, opening, csg);
+  if (!outside || Volume(whole) - Volume(*outside) < kMinPiece_m3) return {};
+  return Subtract(whole, *outside, csg).value_or(Solid());
+}
+
+std::vector<std::pair<uint32_t, uint32_t>> MatchFillings(const std::vector<FillCandidate>& fillings, const std::vector<FillCandidate>& openings,
+                                                         double min_overlap) {
+  constexpr double kMargin_m = 0.05;  // thin leaves get a body, frames may stand out a little
+  struct Pair {
+    double score;
+    size_t filling, opening;
+  };
+  std::vector<Pair> pairs;
+  for (size_t f = 0; f < fillings.size(); ++f) {
+    Eigen::AlignedBox3d box = fillings[f].box;
+    if (box.isEmpty()) continue;
+    box.min().array() -= kMargin_m;
+    box.max().array() += kMargin_m;
+    for (size_t o = 0; o < openings.size(); ++o) {
+      Eigen::AlignedBox3d hole = openings[o].box;
+      hole.min().array() -= kMargin_m;
+      hole.max().array() += kMargin_m;
+      const Eigen::AlignedBox3d common = box.intersection(hole);
+      if (common.isEmpty()) continue;
+      const double overlap = common.volume() / box.volume();
+      const double height_ratio = common.sizes().z() / box.merged(hole).sizes().z();
+      if (overlap >= min_overlap && height_ratio >= min_overlap) pairs.push_back({overlap * height_ratio, f, o});
+    }
+  }
+  std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return std::tie(b.score, a.filling, a.opening) < std::tie(a.score, b.filling, b.opening); });
+  std::vector<char> used_filling(fillings.size(), 0), used_opening(openings.size(), 0);
+  std::vector<std::pair<size_t, size_t>> chosen;
+  for (const Pair& pair : pairs) {
+    if (used_filling[pair.filling] != 0 || used_opening[pair.opening] != 0) continue;
+    used_filling[pair.filling] = used_opening[pair.opening] = 1;
+    chosen.emplace_back(pair.filling, pair.opening);
+  }
+  std::sort(chosen.begin(), chosen.end());
+  std::vector<std::pair<uint32_t, uint32_t>> out;
+  for (const auto& [f, o] : chosen) out.emplace_back(fillings[f].index, openings[o].index);
+  return out;
+}
+
+}  // namespace plumb::compiler

@@ -1,0 +1,36 @@
+// Points, directions, placements and transformation operators of an IFC file as Eigen transforms. Metres.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <unordered_map>
+
+#include "compiler/frontends/ifc/ifc_model.h"
+
+namespace plumb::compiler {
+
+class PlacementReader {
+ public:
+  explicit PlacementReader(const IfcModel& model) : model_(model) {}
+
+  // Zero for what is no point; a 2D point has z = 0.
+  [[nodiscard]] Eigen::Vector3d Point(const IfcInstance& point) const;
+  [[nodiscard]] Eigen::Vector3d Point(StepValue reference) const { return Point(model_.Follow(reference)); }
+  // Not normalized. `fallback` where the reference is unset or (BadAttribute) the direction is no direction.
+  [[nodiscard]] Eigen::Vector3d Direction(StepValue reference, const Eigen::Vector3d& fallback) const;
+
+  // IfcAxis2Placement3D, or IfcAxis2Placement2D in the xy plane; the identity if unset.
+  [[nodiscard]] Eigen::Isometry3d AxisPlacement(StepValue reference) const;
+  // IfcObjectPlacement with all that it is relative to, to the plan frame. The identity if unset. Cycles and chains of over 200 placements
+  // end with a ReferenceCycle diagnostic. Cached.
+  [[nodiscard]] Eigen::Isometry3d ObjectPlacement(StepValue reference);
+  // IfcCartesianTransformationOperator, 2D or 3D, uniform or not.
+  [[nodiscard]] Eigen::Affine3d Operator(StepValue reference) const;
+
+ private:
+  [[nodiscard]] Eigen::Isometry3d OwnPlacement(const IfcInstance& placement) const;
+
+  const IfcModel& model_;
+  std::unordered_map<uint32_t, Eigen::Isometry3d> T_plan_placement_;
+};
+
+}  // namespace plumb::compiler

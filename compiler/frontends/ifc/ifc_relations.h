@@ -1,0 +1,39 @@
+// Relations between the objects of an IFC file, turned round so that each object knows its own: flat arrays by instance.
+#pragma once
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "compiler/frontends/ifc/ifc_model.h"
+
+namespace plumb::compiler {
+
+class Relations {
+ public:
+  explicit Relations(const IfcModel& model);
+
+  // StepFile::kNone where there is none.
+  [[nodiscard]] uint32_t WholeOf(uint32_t part) const { return whole_[part]; }            // IfcRelAggregates, IfcRelNests
+  [[nodiscard]] uint32_t StructureOf(uint32_t element) const { return structure_[element]; }  // IfcRelContainedInSpatialStructure
+  [[nodiscard]] uint32_t HostOf(uint32_t opening) const { return host_[opening]; }        // IfcRelVoidsElement
+  [[nodiscard]] uint32_t OpeningOf(uint32_t filling) const { return opening_[filling]; }  // IfcRelFillsElement
+  [[nodiscard]] uint32_t MaterialOf(uint32_t object) const;                               // IfcRelAssociatesMaterial, else that of its type
+  [[nodiscard]] std::optional<bool> IsExternal(uint32_t element) const;                   // Pset_WallCommon and its kind
+
+  // The storey that holds an object directly or through what it is part of, what it fills or what it voids.
+  [[nodiscard]] uint32_t StoreyOf(uint32_t object) const;
+
+  // The sum of the material layers, if layers are what the object is made of.
+  [[nodiscard]] std::optional<double> LayerThickness_m(uint32_t object) const;
+
+ private:
+  void ReadOneToMany(IfcType relation, size_t one, size_t many, std::vector<uint32_t>& one_of_many) const;
+  void ReadExternal();
+
+  const IfcModel& model_;
+  std::vector<uint32_t> whole_, structure_, host_, opening_, material_, type_;
+  std::vector<char> external_;
+};
+
+}  // namespace plumb::compiler

@@ -1,0 +1,365 @@
+#include "compiler/frontends/ifc/ifc_shape.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include "compiler/geometry/csg.h"
+#include "compiler/geometry/sweep.h"
+
+namespace plumb::compiler {
+namespace {
+
+using Eigen::Affine3d;
+using Eigen::Isometry3d;
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+constexpr int kMaxDepth = 300;
+constexpr int kDiskSides = 8;
+
+size_t CountTriangles(const ShapeParts& parts) {
+  size_t n = 0;
+  for (const ShapePart& part : parts) n += part.solid.triangles.size();
+  return n;
+}
+
+ShapeParts OnePart(Solid solid) {
+  ShapeParts parts;
+  if (!solid.empty()) parts.push_back({std::move(solid), Look::kUnstated, {}, Affine3d::Identity()});
+  return parts;
+}
+
+// How well a representation serves as the body: higher is better, 0 not at all.
+int BodyRank(const IfcInstance& representation) {
+  const std::string id = representation[attribute::kRepresentationIdentifier].Text();
+  const std::string type = representation[attribute::kRepresentationType].Text();
+  constexpr std::array<std::string_view, 9> kNoBody = {"Axis", "FootPrint", "Annotation", "Profile", "Clearance", "CoG", "Lighting", "Reference", "Plan"};
+  if (std::find(kNoBody.begin(), kNoBody.end(), id) != kNoBody.end()) return 0;
+  if (type == "BoundingBox" || id == "Box") return 1;
+  if (id == "Body") return 5;
+  if (id == "Facetation" || id == "Body-Fallback" || id == "Body-FallBack" || id == "Tessellation") return 4;
+  constexpr std::array<std::string_view, 12> kSolid = {"SweptSolid", "AdvancedSweptSolid", "Clipping", "Brep", "AdvancedBrep", "CSG", "SurfaceModel", "SolidModel",
+                                                       "Tessellation", "MappedRepresentation", "Surface3D", "AttributeBody"};
+  return std::find(kSolid.begin(), kSolid.end(), type) != kSolid.end() ? 3 : 0;
+}
+
+}  // namespace
+
+void TransformPart(const Affine3d& T_out_part, ShapePart& part) {
+  TransformSolid(T_out_part, part.solid);
+  part.T_part_profile = T_out_part * part.T_part_profile;
+}
+
+ShapeReader::ShapeReader(const IfcModel& model, const PlacementReader& placements, const StyleReader& styles, const IfcOptions& options)
+    : model_(model),
+      placements_(placements),
+      styles_(styles),
+      options_(options),
+      curves_(model, placements, options.chord_tolerance_m),
+      profiles_(model, placements, curves_, options.chord_tolerance_m),
+      faces_(model, placements, curves_, options_) {}
+
+ShapeParts ShapeReader::Body(const IfcInstance& definition_shape) {
+  if (!definition_shape || definition_shape.type != IfcType::kIfcProductDefinitionShape) return {};
+  std::vector<std::pair<int, IfcInstance>> ranked;
+  for (const StepValue item : definition_shape[attribute::kShapeRepresentations].Items()) {
+    const IfcInstance representation = model_.Follow(item);
+    if (!representation || representation.type != IfcType::kIfcShapeRepresentation) continue;
+    const int rank = BodyRank(representation);
+    if (rank > 0) ranked.emplace_back(rank, representation);
+  }
+  std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
+  for (const auto& [rank, representation] : ranked) {
+    ShapeParts parts = Representation(representation, 0);
+    if (parts.empty()) continue;
+    if (rank == 1) {
+      model_.Emit(DiagnosticKind::kBoundingBoxInstead, definition_shape.index,
+                  fmt::format("{} has no body that can be read; its bounding box stands for it", model_.Label(definition_shape.index)));
+    }
+    return parts;
+  }
+  return {};
+}
+
+std::optional<std::pair<Vector3d, Vector3d>> ShapeReader::Axis(const IfcInstance& definition_shape) const {
+  if (!definition_shape || definition_shape.type != IfcType::kIfcProductDefinitionShape) return std::nullopt;
+  for (const StepValue item : definition_shape[attribute::kShapeRepresentations].Items()) {
+    const IfcInstance representation = model_.Follow(item);
+    if (!representation || representation[attribute::kRepresentationIdentifier].Text() != "Axis") continue;
+    const StepItems items = representation[attribute::kRepresentationItems].Items();
+    if (items.empty()) continue;
+    const IfcInstance curve = model_.Follow(*items.begin());
+    if (!curve || curve.type == IfcType::kIfcMappedItem || curve.type == IfcType::kIfcGeometricSet || curve.type == IfcType::kIfcGeometricCurveSet) continue;
+    const CurvePoints points = curves_.Read(curve);
+    if (points.points.size() >= 2) return std::make_pair(points.points.front(), points.points.back());
+  }
+  return std::nullopt;
+}
+
+ShapeParts ShapeReader::Representation(const IfcInstance& representation, int depth) {
+  ShapeParts parts;
+  for (const StepValue reference : representation[attribute::kRepresentationItems].Items()) {
+    const IfcInstance item = model_.Follow(reference);
+    if (!item) continue;
+    ShapeParts more = Item(item, depth);
+    parts.insert(parts.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
+    if (CountTriangles(parts) > options_.max_triangles_per_element) {
+      model_.Emit(DiagnosticKind::kTooManyTriangles, representation.index,
+                  fmt::format("{} has over {} triangles; the rest is left out", model_.Label(representation.index), options_.max_triangles_per_element));
+      break;
+    }
+  }
+  return parts;
+}
+
+ShapeParts ShapeReader::Item(const IfcInstance& item, int depth) {
+  if (depth > kMaxDepth) {
+    model_.Emit(DiagnosticKind::kReferenceCycle, item.index, fmt::format("the shape {} contains itself or is nested more than {} deep", model_.Label(item.index), kMaxDepth));
+    return {};
+  }
+  ShapeParts parts = ReadItem(item, depth);
+  // A style on the whole holds where the parts state none of their own.
+  if (const Look look = styles_.OfItem(item.index); look != Look::kUnstated) {
+    for (ShapePart& part : parts) {
+      if (part.look == Look::kUnstated) part.look = look;
+    }
+  }
+  return parts;
+}
+
+ShapeParts ShapeReader::ReadItem(const IfcInstance& item, int depth) {
+  switch (item.type) {
+    case IfcType::kIfcExtrudedAreaSolid:
+    case IfcType::kIfcExtrudedAreaSolidTapered: return Extruded(item);
+    case IfcType::kIfcRevolvedAreaSolid: return Revolved(item);
+    case IfcType::kIfcSweptDiskSolid:
+    case IfcType::kIfcSweptDiskSolidPolygonal: return Disk(item);
+    case IfcType::kIfcBooleanResult:
+    case IfcType::kIfcBooleanClippingResult: return Boolean(item, depth);
+    case IfcType::kIfcCsgSolid: {
+      const IfcInstance tree = model_.Follow(item[attribute::kCsgTree]);
+      return tree ? Item(tree, depth + 1) : ShapeParts();
+    }
+    case IfcType::kIfcBlock:
+    case IfcType::kIfcRightCircularCylinder: return Primitive(item);
+    case IfcType::kIfcFacetedBrep:
+    case IfcType::kIfcFacetedBrepWithVoids:
+    case IfcType::kIfcAdvancedBrep:
+    case IfcType::kIfcAdvancedBrepWithVoids: return OnePart(faces_.Brep(item));
+    case IfcType::kIfcFaceBasedSurfaceModel:
+    case IfcType::kIfcShellBasedSurfaceModel: return SurfaceModel(item);
+    case IfcType::kIfcConnectedFaceSet:
+    case IfcType::kIfcClosedShell:
+    case IfcType::kIfcOpenShell: return OnePart(faces_.Shell(item));
+    case IfcType::kIfcTriangulatedFaceSet:
+    case IfcType::kIfcTriangulatedIrregularNetwork:
+    case IfcType::kIfcPolygonalFaceSet: return OnePart(faces_.FaceSet(item));
+    case IfcType::kIfcMappedItem: return Mapped(item, depth);
+    case IfcType::kIfcBoundingBox: return OnePart(BoundingBox(item));
+    case IfcType::kIfcGeometricSet:
+    case IfcType::kIfcGeometricCurveSet:
+    case IfcType::kIfcPolyline: return {};  // lines have no body
+    default: break;
+  }
+  model_.Emit(DiagnosticKind::kUnsupportedGeometry, item.index, fmt::format("the shape {} is of a type that is not read", model_.Label(item.index)));
+  return {};
+}
+
+ShapeParts ShapeReader::Mapped(const IfcInstance& item, int depth) {
+  const IfcInstance map = model_.Follow(item[attribute::kMappingSource]);
+  if (!map || map.type != IfcType::kIfcRepresentationMap) return {};
+  auto known = mapped_.find(map.index);
+  if (known == mapped_.end()) {
+    const IfcInstance representation = model_.Follow(map[attribute::kMappedRepresentation]);
+    ShapeParts parts;
+    if (representation) parts = Representation(representation, depth + 1);
+    const Affine3d T_map_origin(placements_.AxisPlacement(map[attribute::kMapOrigin]).matrix());
+    for (ShapePart& part : parts) TransformPart(T_map_origin, part);
+    known = mapped_.insert_or_assign(map.index, std::move(parts)).first;
+  }
+  ShapeParts parts = known->second;
+  const Affine3d T = placements_.Operator(item[attribute::kMappingTarget]);
+  for (ShapePart& part : parts) TransformPart(T, part);
+  return parts;
+}
+
+ShapeParts ShapeReader::Extruded(const IfcInstance& item) {
+  const Profile profile = profiles_.Read(model_.Follow(item[attribute::kSweptArea]));
+  if (profile.area.empty()) return {};
+  const Vector3d direction = placements_.Direction(item[attribute::kExtrudedDirection], Vector3d::UnitZ()).normalized();
+  const Vector3d offset = direction * model_.Length(item, attribute::kExtrusionDepth);
+  ShapePart part;
+  if (item.type == IfcType::kIfcExtrudedAreaSolidTapered) {
+    part.solid = Loft(profile.area, profiles_.Read(model_.Follow(item[attribute::kEndSweptArea])).area, offset);
+    if (part.solid.empty()) {
+      model_.Emit(DiagnosticKind::kSimplifiedGeometry, item.index, fmt::format("the end profile of {} does not fit to its start; it is extruded straight", model_.Label(item.index)));
+    }
+  }
+  if (part.solid.empty()) part.solid = Extrude(profile.area, offset);
+  if (part.solid.empty()) {
+    model_.Emit(DiagnosticKind::kDegenerateGeometry, item.index, fmt::format("{} encloses nothing: its profile or its depth is empty", model_.Label(item.index)));
+    return {};
+  }
+  part.arcs = profile.arcs;
+  TransformPart(Affine3d(placements_.AxisPlacement(item[attribute::kSweptPosition]).matrix()), part);
+  return {std::move(part)};
+}
+
+ShapeParts ShapeReader::Revolved(const IfcInstance& item) {
+  const Profile profile = profiles_.Read(model_.Follow(item[attribute::kSweptArea]));
+  const IfcInstance axis = model_.Follow(item[attribute::kRevolutionAxis]);
+  if (profile.area.empty() || !axis) return {};
+  const Vector3d point = placements_.Point(axis[attribute::kLocation]);
+  const Vector3d direction = placements_.Direction(axis[attribute::kAxis], Vector3d::UnitY());
+  const double angle_rad = model_.Number(item, attribute::kRevolutionAngle) * model_.angle_scale();
+  double reach_m = 0;
+  for (const Ring2& ring : profile.area) {
+    for (const Vector2d& p : ring) reach_m = std::max(reach_m, (p - point.head<2>()).norm());
+  }
+  Solid solid = Revolve(profile.area, point.head<2>(), direction.head<2>(), angle_rad, ArcSegments(reach_m, angle_rad, options_.chord_tolerance_m));
+  if (solid.empty()) {
+    model_.Emit(DiagnosticKind::kDegenerateGeometry, item.index, fmt::format("{} encloses nothing: its profile or its angle is empty", model_.Label(item.index)));
+  }
+  TransformSolid(Affine3d(placements_.AxisPlacement(item[attribute::kSweptPosition]).matrix()), solid);
+  return OnePart(std::move(solid));
+}
+
+ShapeParts ShapeReader::Disk(const IfcInstance& item) {
+  const CurvePoints path = curves_.Read(model_.Follow(item[attribute::kDirectrix]));
+  return OnePart(SweepDisk(path.points, model_.Length(item, attribute::kDiskRadius), kDiskSides));
+}
+
+ShapeParts ShapeReader::Primitive(const IfcInstance& item) {
+  const Affine3d T(placements_.AxisPlacement(item[attribute::kPrimitivePosition]).matrix());
+  Solid solid;
+  if (item.type == IfcType::kIfcBlock) {
+    const Vector3d size(model_.Length(item, attribute::kBlockX), model_.Length(item, attribute::kBlockY), model_.Length(item, attribute::kBlockZ));
+    if (size.minCoeff() > 0) solid = MakeBox(Vector3d::Zero(), size);
+  } else {
+    const double radius_m = model_.Length(item, attribute::kCylinderRadius);
+    const int sides = ArcSegments(radius_m, 2 * std::numbers::pi, options_.chord_tolerance_m);
+    Ring2 ring;
+    for (int i = 0; i < sides; ++i) {
+      const double angle = 2 * std::numbers::pi * i / sides;
+      ring.emplace_back(radius_m * std::cos(angle), radius_m * std::sin(angle));
+    }
+    solid = Extrude({ring}, Vector3d::UnitZ() * model_.Length(item, attribute::kCylinderHeight));
+  }
+  if (solid.empty()) model_.Emit(DiagnosticKind::kDegenerateGeometry, item.index, fmt::format("{} has measures that are not positive", model_.Label(item.index)));
+  TransformSolid(T, solid);
+  return OnePart(std::move(solid));
+}
+
+ShapeParts ShapeReader::SurfaceModel(const IfcInstance& item) {
+  Solid solid;
+  for (const StepValue shell : item[attribute::kModelShells].Items()) AppendSolid(faces_.Shell(model_.Follow(shell)), solid);
+  // Shells that only close together are one solid.
+  if (!IsClosed(solid)) {
+    WeldSolid(options_.weld_tolerance_m, solid);
+    OrientOutward(solid);
+  }
+  return OnePart(std::move(solid));
+}
+
+Solid ShapeReader::BoundingBox(const IfcInstance& item) const {
+  const Vector3d corner = placements_.Point(item[attribute::kBoxCorner]);
+  const Vector3d size(model_.Length(item, attribute::kBoxX), model_.Length(item, attribute::kBoxY), model_.Length(item, attribute::kBoxZ));
+  return size.minCoeff() > 0 ? MakeBox(corner, corner + size) : Solid();
+}
+
+ShapeParts ShapeReader::Boolean(const IfcInstance& item, int depth) {
+  const IfcInstance first = model_.Follow(item[attribute::kFirstOperand]), second = model_.Follow(item[attribute::kSecondOperand]);
+  if (!first) return {};
+  ShapeParts parts = Item(first, depth + 1);
+  if (!second || parts.empty()) return parts;
+  const std::string_view op = item[attribute::kBooleanOperator].Enumeration();
+  const bool is_half_space = second.type == IfcType::kIfcHalfSpaceSolid || second.type == IfcType::kIfcPolygonalBoundedHalfSpace || second.type == IfcType::kIfcBoxedHalfSpace;
+  if (is_half_space) {
+    if (op == "DIFFERENCE") {
+      SubtractHalfSpace(second, item.index, parts);
+    } else {
+      model_.Emit(DiagnosticKind::kUnsupportedGeometry, item.index, fmt::format("{} combines a half space by {}; only DIFFERENCE is read", model_.Label(item.index), op));
+    }
+    return parts;
+  }
+  ShapeParts tools = Item(second, depth + 1);
+  if (op == "UNION") {
+    parts.insert(parts.end(), std::make_move_iterator(tools.begin()), std::make_move_iterator(tools.end()));
+  } else if (op == "INTERSECTION") {
+    IntersectParts(tools, item.index, parts);
+  } else {
+    SubtractParts(tools, item.index, parts);
+  }
+  return parts;
+}
+
+void ShapeReader::SubtractParts(const ShapeParts& tools, uint32_t result, ShapeParts& parts) const {
+  const CsgOptions csg{.plane_epsilon_m = options_.plane_epsilon_m};
+  for (ShapePart& part : parts) {
+    for (const ShapePart& tool : tools) {
+      Expected<Solid> rest = Subtract(part.solid, tool.solid, csg);
+      if (rest) {
+        part.solid = std::move(*rest);
+      } else {
+        model_.Emit(DiagnosticKind::kBooleanFailed, result, fmt::format("{} is left out: {}", model_.Label(result), rest.error().message));
+      }
+    }
+  }
+  std::erase_if(parts, [](const ShapePart& part) { return part.solid.empty(); });
+}
+
+// a and b = a - (a - b).
+void ShapeReader::IntersectParts(const ShapeParts& tools, uint32_t result, ShapeParts& parts) const {
+  ShapeParts outside = parts;
+  SubtractParts(tools, result, outside);
+  SubtractParts(outside, result, parts);
+}
+
+void ShapeReader::SubtractHalfSpace(const IfcInstance& half_space, uint32_t result, ShapeParts& parts) const {
+  const IfcInstance plane = model_.Follow(half_space[attribute::kHalfSpaceSurface]);
+  if (!plane || plane.type != IfcType::kIfcPlane) {
+    model_.Emit(DiagnosticKind::kUnsupportedGeometry, half_space.index, fmt::format("the half space {} is not bounded by a plane; the cut is left out", model_.Label(half_space.index)));
+    return;
+  }
+  const Isometry3d T_plane = placements_.AxisPlacement(plane[attribute::kSurfacePosition]);
+  // AgreementFlag true: the plane's normal points out of the half space's material, which is what is cut away.
+  const bool agreement = half_space[attribute::kHalfSpaceAgreement].Boolean().value_or(true);
+  const Vector3d n = agreement ? Vector3d(T_plane.linear().col(2)) : Vector3d(-T_plane.linear().col(2));
+  const double d_m = -n.dot(T_plane.translation());
+  const CsgOptions csg{.plane_epsilon_m = options_.plane_epsilon_m};
+  const bool bounded = half_space.type == IfcType::kIfcPolygonalBoundedHalfSpace;
+  Ring2 boundary;
+  Isometry3d T_boundary = Isometry3d::Identity();
+  if (bounded) {
+    boundary = curves_.ReadRing(model_.Follow(half_space[attribute::kBoundedBoundary]), nullptr);
+    T_boundary = placements_.AxisPlacement(half_space[attribute::kBoundedPosition]);
+  }
+  for (ShapePart& part : parts) {
+    Expected<Solid> rest = Solid();
+    if (bounded) {
+      // The prism over the boundary, as long as the part, cut by the plane.
+      Eigen::AlignedBox3d box;
+      for (const Vector3d& v : part.solid.vertices) box.extend(T_boundary.inverse() * v);
+      const double low_m = box.min().z() - 1, high_m = box.max().z() + 1;
+      Solid prism = Extrude({boundary}, Vector3d::UnitZ() * (high_m - low_m));
+      TransformSolid(Affine3d(T_boundary.matrix()) * Eigen::Translation3d(0, 0, low_m), prism);
+      rest = CutByPlane(prism, n, d_m, csg);
+      if (rest) rest = Subtract(part.solid, *rest, csg);
+    } else {
+      rest = CutByPlane(part.solid, -n, -d_m, csg);
+    }
+    if (rest) {
+      part.solid = std::move(*rest);
+    } else {
+      model_.Emit(DiagnosticKind::kBooleanFailed, result, fmt::format("{} is left out: {}", model_.Label(result), rest.error().message));
+    }
+  }
+  std::erase_if(parts, [](const ShapePart& part) { return part.solid.empty(); });
+}
+
+}  // namespace plumb::compiler

@@ -1,0 +1,66 @@
+// Shapes of IFC products: representation items as solids. Metres, in the product's own frame.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <optional>
+#include <unordered_map>
+#include <vector>
+
+#include "compiler/frontends/ifc/ifc_curves.h"
+#include "compiler/frontends/ifc/ifc_faces.h"
+#include "compiler/frontends/ifc/ifc_options.h"
+#include "compiler/frontends/ifc/ifc_profiles.h"
+#include "compiler/frontends/ifc/ifc_styles.h"
+#include "compiler/geometry/solid.h"
+
+namespace plumb::compiler {
+
+struct ShapePart {
+  Solid solid;
+  Look look = Look::kUnstated;
+  std::vector<Arc> arcs;  // exact arcs of an extruded profile ...
+  Eigen::Affine3d T_part_profile = Eigen::Affine3d::Identity();  // ... and where its plane lies
+};
+using ShapeParts = std::vector<ShapePart>;
+
+void TransformPart(const Eigen::Affine3d& T_out_part, ShapePart& part);
+
+class ShapeReader {
+ public:
+  // `placements` must outlive the reader.
+  ShapeReader(const IfcModel& model, const PlacementReader& placements, const StyleReader& styles, const IfcOptions& options);
+
+  // The body of a product (IfcProductDefinitionShape): one part for each representation item. A bounding box where nothing else is given
+  // or readable, with a diagnostic. Empty if it has none.
+  [[nodiscard]] ShapeParts Body(const IfcInstance& definition_shape);
+
+  // The first and last point of the Axis representation. None if there is none.
+  [[nodiscard]] std::optional<std::pair<Eigen::Vector3d, Eigen::Vector3d>> Axis(const IfcInstance& definition_shape) const;
+
+ private:
+  [[nodiscard]] ShapeParts Representation(const IfcInstance& representation, int depth);
+  [[nodiscard]] ShapeParts Item(const IfcInstance& item, int depth);
+  [[nodiscard]] ShapeParts ReadItem(const IfcInstance& item, int depth);
+  [[nodiscard]] ShapeParts Mapped(const IfcInstance& item, int depth);
+  [[nodiscard]] ShapeParts Extruded(const IfcInstance& item);
+  [[nodiscard]] ShapeParts Revolved(const IfcInstance& item);
+  [[nodiscard]] ShapeParts Disk(const IfcInstance& item);
+  [[nodiscard]] ShapeParts Primitive(const IfcInstance& item);
+  [[nodiscard]] ShapeParts Boolean(const IfcInstance& item, int depth);
+  [[nodiscard]] ShapeParts SurfaceModel(const IfcInstance& item);
+  void SubtractHalfSpace(const IfcInstance& half_space, uint32_t result, ShapeParts& parts) const;
+  void SubtractParts(const ShapeParts& tools, uint32_t result, ShapeParts& parts) const;
+  void IntersectParts(const ShapeParts& tools, uint32_t result, ShapeParts& parts) const;
+  [[nodiscard]] Solid BoundingBox(const IfcInstance& item) const;
+
+  const IfcModel& model_;
+  const PlacementReader& placements_;
+  const StyleReader& styles_;
+  IfcOptions options_;
+  CurveReader curves_;
+  ProfileReader profiles_;
+  FaceReader faces_;
+  std::unordered_map<uint32_t, ShapeParts> mapped_;  // by IfcRepresentationMap, in its own frame
+};
+
+}  // namespace plumb::compiler

@@ -1,0 +1,295 @@
+#include "compiler/frontends/ifc/step_file.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cstring>
+#include <numeric>
+
+namespace plumb::compiler {
+namespace {
+
+constexpr size_t kLineBlockBytes = size_t{1} << 16;
+constexpr size_t kMaxSyntaxDiagnostics = 50;
+constexpr size_t kMaxTypes = 0xfffe;
+
+bool IsDigit(char c) { return c >= '0' && c <= '9'; }
+bool IsNameChar(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || IsDigit(c) || c == '_'; }
+char Upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
+
+const char* Find(const char* p, const char* end, char c) {
+  return p < end ? static_cast<const char*>(std::memchr(p, c, static_cast<size_t>(end - p))) : nullptr;
+}
+
+// Type names to numbers: open addressing over a hash of both ends of the name.
+class TypeTable {
+ public:
+  // kMaxTypes if the table is full.
+  size_t Intern(std::string_view name, std::vector<std::string>& names) {
+    for (size_t slot = Hash(name) & (kSlots - 1);; slot = (slot + 1) & (kSlots - 1)) {
+      if (slots_[slot] == 0) {
+        if (names.size() >= kSlots / 2) return kMaxTypes;
+        names.emplace_back(name);
+        slots_[slot] = static_cast<uint16_t>(names.size());
+        return names.size() - 1;
+      }
+      if (names[slots_[slot] - 1u] == name) return slots_[slot] - 1u;
+    }
+  }
+
+ private:
+  static uint64_t Hash(std::string_view name) {
+    uint64_t head = 0, tail = 0;
+    const size_t n = std::min(name.size(), sizeof head);
+    std::memcpy(&head, name.data(), n);
+    std::memcpy(&tail, name.data() + name.size() - n, n);
+    const uint64_t hash = (head * 0x9e3779b97f4a7c15u) ^ (tail * 0xc2b2ae3d27d4eb4fu) ^ name.size();
+    return hash ^ hash >> 32;
+  }
+
+  static constexpr size_t kSlots = size_t{1} << 14;  // IFC4X3 has about 1,000 types; the bound keeps hostile files cheap
+  std::vector<uint16_t> slots_ = std::vector<uint16_t>(kSlots, 0);
+};
+
+}  // namespace
+
+class StepIndexer {
+ public:
+  StepIndexer(std::string_view text, DiagnosticSink& diagnostics) : begin_(text.data()), end_(begin_ + text.size()), diagnostics_(diagnostics) {
+    file_.text_ = text;
+    const size_t expected = text.size() / 48;
+    file_.ids_.reserve(expected);
+    file_.offsets_.reserve(expected);
+    file_.types_.reserve(expected);
+    CountLines();
+  }
+
+  std::optional<StepFile> Run() {
+    const char* p = begin_;
+    if (file_.text_.starts_with("\xef\xbb\xbf")) p += 3;
+    p = SkipStepSpace(p, end_);
+    if (!std::string_view(p, static_cast<size_t>(end_ - p)).starts_with("ISO-10303-21")) {
+      diagnostics_.Emit(DiagnosticKind::kStepSyntax, {}, "the file does not begin with `ISO-10303-21;`");
+      return std::nullopt;
+    }
+    while (!closed_) {
+      p = SkipStepSpace(p, end_);
+      if (p == end_) break;
+      p = *p == '#' ? Instance(p) : Keyword(p);
+    }
+    if (!closed_ && !truncated_) Complain(end_, "the file ends before `END-ISO-10303-21;`: it was cut off");
+    file_.BuildLookup(diagnostics_);
+    file_.BuildTypeLists();
+    return std::move(file_);
+  }
+
+ private:
+  void CountLines() {
+    const bool has_lf = Find(begin_, end_, '\n') != nullptr;
+    file_.newline_ = has_lf ? '\n' : '\r';
+    uint32_t count = 0;
+    for (const char* p = begin_; p < end_;) {
+      const char* stop = static_cast<size_t>(end_ - p) > kLineBlockBytes ? p + kLineBlockBytes : end_;
+      file_.line_blocks_.push_back(count);
+      count += static_cast<uint32_t>(std::count(p, stop, file_.newline_));
+      p = stop;
+    }
+  }
+
+  void Complain(const char* at, std::string message) {
+    if (++complaints_ > kMaxSyntaxDiagnostics) return;
+    if (complaints_ == kMaxSyntaxDiagnostics) message += "; further syntax errors are not listed";
+    SourceLocation location;
+    location.line = file_.LineAt(static_cast<size_t>(at - begin_));
+    diagnostics_.Emit(DiagnosticKind::kStepSyntax, location, std::move(message));
+  }
+
+  // p at `#`. Returns where to go on.
+  const char* Instance(const char* p) {
+    const char* start = p;
+    uint64_t id = 0;
+    const auto digits = std::from_chars(p + 1, end_, id);
+    if (digits.ec != std::errc()) return Broken(start, "`#` stands without an id");
+    p = SkipStepSpace(digits.ptr, end_);
+    if (p == end_ || *p != '=') return Broken(start, fmt::format("`#{}` stands without `=`", id));
+    p = SkipStepSpace(p + 1, end_);
+    const char* name = p;
+    while (p != end_ && IsNameChar(*p)) ++p;
+    const std::string_view type(name, static_cast<size_t>(p - name));
+    p = SkipStepSpace(p, end_);
+    if (p == end_ || *p != '(') return Broken(start, fmt::format("`#{}` has no argument list", id));
+    const size_t type_number = types_.Intern(type, file_.type_names_);
+    if (type_number == kMaxTypes) return Broken(start, fmt::format("`#{}` is of one type too many; at most 8192 are read", id));
+    const char* next = Terminator(start, p);
+    if (truncated_) return end_;  // cut off inside its arguments: not kept
+    file_.ids_.push_back(id);
+    file_.offsets_.push_back(static_cast<uint32_t>(p - begin_));
+    file_.types_.push_back(static_cast<uint16_t>(type_number));
+    return next;
+  }
+
+  // Sections, header entities and garbage.
+  const char* Keyword(const char* p) {
+    const char* name = p;
+    while (p != end_ && (IsNameChar(*p) || *p == '-')) ++p;
+    const std::string_view word(name, static_cast<size_t>(p - name));
+    if (word.empty()) return Broken(name, fmt::format("`{}` begins no statement", Printable(*name)));
+    if (word == "END-ISO-10303-21") {
+      closed_ = true;
+      return end_;
+    }
+    p = SkipStepSpace(p, end_);
+    if (word == "FILE_SCHEMA" && p != end_ && *p == '(') ReadSchema(p);
+    return Terminator(name, p);
+  }
+
+  void ReadSchema(const char* open) {
+    const StepArguments args(open, end_);
+    const StepItems names = args[0].Items();
+    if (names.empty()) return;
+    file_.schema_name_ = (*names.begin()).Text();
+    std::transform(file_.schema_name_.begin(), file_.schema_name_.end(), file_.schema_name_.begin(), Upper);
+  }
+
+  // Behind the `;` that ends the statement from `start`, looked for from `p` on and past strings and comments. Stops early, with a
+  // complaint, where the next instance begins without a `;` before it.
+  const char* Terminator(const char* start, const char* p) {
+    const char* semicolon = nullptr;
+    while (true) {
+      if (semicolon == nullptr || semicolon < p) semicolon = Find(p, end_, ';');
+      const char* stop = semicolon != nullptr ? semicolon : end_;
+      const char* quote = Find(p, stop, '\'');
+      const char* limit = quote != nullptr ? quote : stop;
+      if (const char* comment = FindComment(p, limit)) {
+        p = SkipStepSpace(comment, end_);
+        continue;
+      }
+      if (const char* next = NextInstance(p, limit)) {
+        Complain(start, "a statement does not end with `;` before the next instance");
+        return next;
+      }
+      if (quote == nullptr) {
+        if (semicolon != nullptr) return semicolon + 1;
+        truncated_ = true;
+        Complain(start, "the file ends inside this statement: it was cut off");
+        return end_;
+      }
+      const char* close = Find(quote + 1, end_, '\'');
+      const char* inside = InstanceInString(quote + 1, close != nullptr ? close : end_);
+      if (inside != nullptr || close == nullptr) {
+        Complain(quote, "a string has no closing quote");
+        if (inside == nullptr) truncated_ = true;
+        return inside != nullptr ? inside : end_;
+      }
+      p = close + 1;
+    }
+  }
+
+  static const char* FindComment(const char* p, const char* limit) {
+    while ((p = Find(p, limit, '/')) != nullptr) {
+      if (limit - p >= 2 && p[1] == '*') return p;
+      ++p;
+    }
+    return nullptr;
+  }
+
+  // `#12=` in [p, limit): the `=` shows that an instance begins there.
+  const char* NextInstance(const char* p, const char* limit) const {
+    const char* equals = Find(p, limit, '=');
+    if (equals == nullptr) return nullptr;
+    const char* q = equals;
+    while (q != p && (q[-1] == ' ' || q[-1] == '\t')) --q;
+    const char* digits_end = q;
+    while (q != p && IsDigit(q[-1])) --q;
+    return q != digits_end && q != p && q[-1] == '#' ? q - 1 : nullptr;
+  }
+
+  // A line of its own that reads `#12=` in what should be a string.
+  static const char* InstanceInString(const char* p, const char* limit) {
+    while ((p = Find(p, limit, '\n')) != nullptr) {
+      ++p;
+      const char* q = p;
+      if (q == limit || *q != '#') continue;
+      ++q;
+      while (q != limit && IsDigit(*q)) ++q;
+      while (q != limit && *q == ' ') ++q;
+      if (q != limit && *q == '=') return p;
+    }
+    return nullptr;
+  }
+
+  const char* Broken(const char* at, std::string message) {
+    Complain(at, std::move(message));
+    const char* semicolon = Find(at, end_, ';');
+    return semicolon != nullptr ? semicolon + 1 : end_;
+  }
+
+  static std::string Printable(char c) { return c >= ' ' && c <= '~' ? std::string(1, c) : fmt::format("byte 0x{:02x}", static_cast<unsigned char>(c)); }
+
+  const char* begin_;
+  const char* end_;
+  DiagnosticSink& diagnostics_;
+  StepFile file_;
+  TypeTable types_;
+  size_t complaints_ = 0;
+  bool closed_ = false, truncated_ = false;
+};
+
+std::optional<StepFile> StepFile::Index(std::string_view text, DiagnosticSink& diagnostics) { return StepIndexer(text, diagnostics).Run(); }
+
+void StepFile::BuildLookup(DiagnosticSink& diagnostics) {
+  const uint64_t max_id = ids_.empty() ? 0 : *std::max_element(ids_.begin(), ids_.end());
+  size_t duplicates = 0;
+  const auto duplicate = [&](uint32_t instance) {
+    if (++duplicates > kMaxSyntaxDiagnostics) return;
+    SourceLocation location{Line(instance), ids_[instance], {}, type_names_[types_[instance]]};
+    diagnostics.Emit(DiagnosticKind::kDuplicateInstance, location, fmt::format("`#{}` is used again; the first one holds", ids_[instance]));
+  };
+  if (max_id < 16 * uint64_t{ids_.size()} + 1024) {
+    dense_.assign(max_id + 1, kNone);
+    for (uint32_t i = 0; i < size(); ++i) {
+      uint32_t& slot = dense_[ids_[i]];
+      if (slot == kNone) {
+        slot = i;
+      } else {
+        duplicate(i);
+      }
+    }
+    return;
+  }
+  sorted_.resize(size());
+  std::iota(sorted_.begin(), sorted_.end(), 0u);
+  std::stable_sort(sorted_.begin(), sorted_.end(), [this](uint32_t a, uint32_t b) { return ids_[a] < ids_[b]; });
+  for (size_t i = 1; i < sorted_.size(); ++i) {
+    if (ids_[sorted_[i - 1]] == ids_[sorted_[i]]) duplicate(sorted_[i]);
+  }
+}
+
+void StepFile::BuildTypeLists() {
+  type_starts_.assign(type_names_.size() + 1, 0);
+  for (const uint16_t type : types_) ++type_starts_[type + 1u];
+  std::partial_sum(type_starts_.begin(), type_starts_.end(), type_starts_.begin());
+  by_type_.resize(size());
+  std::vector<uint32_t> next(type_starts_.begin(), type_starts_.end() - 1);
+  for (uint32_t i = 0; i < size(); ++i) by_type_[next[types_[i]]++] = i;
+}
+
+uint32_t StepFile::Find(uint64_t id) const {
+  if (!dense_.empty()) return id < dense_.size() ? dense_[id] : kNone;
+  const auto it = std::lower_bound(sorted_.begin(), sorted_.end(), id, [this](uint32_t a, uint64_t value) { return ids_[a] < value; });
+  return it != sorted_.end() && ids_[*it] == id ? *it : kNone;
+}
+
+std::span<const uint32_t> StepFile::InstancesOf(uint16_t type) const {
+  return std::span(by_type_).subspan(type_starts_[type], type_starts_[type + 1u] - type_starts_[type]);
+}
+
+uint32_t StepFile::LineAt(size_t offset) const {
+  if (line_blocks_.empty()) return 1;
+  const size_t block = std::min(offset / kLineBlockBytes, line_blocks_.size() - 1);
+  const char* from = text_.data() + block * kLineBlockBytes;
+  return 1 + line_blocks_[block] + static_cast<uint32_t>(std::count(from, text_.data() + offset, newline_));
+}
+
+}  // namespace plumb::compiler

@@ -1,0 +1,159 @@
+#include "compiler/source/source.h"
+
+#include <fmt/format.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <limits>
+#include <utility>
+
+#include "compiler/source/sha256.h"
+#include "schema/files.h"
+
+namespace plumb::compiler {
+namespace {
+
+constexpr size_t kDetectionBytes = 4096;
+
+bool IsGzip(std::string_view bytes) { return bytes.size() >= 2 && bytes[0] == '\x1f' && bytes[1] == '\x8b'; }
+
+enum class InflateStatus { kOk, kDamaged, kTooLarge };
+
+// Inflates all members of a gzip file.
+InflateStatus Inflate(std::string_view packed, size_t max_bytes, std::string& out) {
+  z_stream stream{};
+  constexpr int kGzipOnly = 16 + MAX_WBITS;
+  if (inflateInit2(&stream, kGzipOnly) != Z_OK) return InflateStatus::kDamaged;
+  size_t fed = 0;
+  std::string chunk(size_t{1} << 18, '\0');
+  InflateStatus status = InflateStatus::kOk;
+  while (true) {
+    if (stream.avail_in == 0 && fed < packed.size()) {
+      const size_t n = std::min<size_t>(packed.size() - fed, std::numeric_limits<uInt>::max());
+      stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data() + fed));  // zlib's interface lacks the const
+      stream.avail_in = static_cast<uInt>(n);
+      fed += n;
+    }
+    stream.next_out = reinterpret_cast<Bytef*>(chunk.data());
+    stream.avail_out = static_cast<uInt>(chunk.size());
+    const int result = inflate(&stream, Z_NO_FLUSH);
+    const size_t produced = chunk.size() - stream.avail_out;
+    if (produced > max_bytes - out.size()) {
+      status = InflateStatus::kTooLarge;
+      break;
+    }
+    out.append(chunk, 0, produced);
+    if (result == Z_STREAM_END) {
+      const bool more = stream.avail_in > 0 || fed < packed.size();
+      if (!more) break;
+      if (stream.avail_in > 0 && *stream.next_in != 0x1f) break;  // padding after the last member
+      if (inflateReset(&stream) != Z_OK) status = InflateStatus::kDamaged;
+    } else if (result != Z_OK) {
+      status = InflateStatus::kDamaged;  // Z_BUF_ERROR too: the input ended inside a member
+    }
+    if (status != InflateStatus::kOk) break;
+  }
+  inflateEnd(&stream);
+  return status;
+}
+
+std::string_view SkipMarkAndSpace(std::string_view bytes) {
+  if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
+  const size_t start = bytes.find_first_not_of(" \t\r\n");
+  return start == std::string_view::npos ? std::string_view() : bytes.substr(start);
+}
+
+// A DXF in text form opens with group code 0 (or a 999 comment) on a line of its own, then SECTION.
+bool LooksLikeDxf(std::string_view head) {
+  if (head.starts_with("AutoCAD Binary DXF")) return true;
+  if (!head.starts_with("0") && !head.starts_with("999")) return false;
+  const size_t section = head.find("SECTION");
+  return section != std::string_view::npos && head.find_first_of("\r\n") < section;
+}
+
+const char* HintFor(SourceFormat format) {
+  switch (format) {
+    case SourceFormat::kDwg: return "save it as DXF or export IFC from the CAD program";
+    case SourceFormat::kZip: return "unpack the archive and give the .ifc file in it";
+    default: return "export the plan as IFC (STEP, .ifc)";
+  }
+}
+
+}  // namespace
+
+std::string SourceOptions::Check() const {
+  if (max_bytes == 0 || max_bytes >= std::numeric_limits<uint32_t>::max()) {
+    return fmt::format("SourceOptions.max_bytes = {}; must be in 1..{}", max_bytes, std::numeric_limits<uint32_t>::max() - 1);
+  }
+  return {};
+}
+
+SourceFormat DetectFormat(std::string_view bytes) {
+  if (bytes.starts_with("PK\x03\x04")) return SourceFormat::kZip;
+  const std::string_view head = SkipMarkAndSpace(bytes.substr(0, kDetectionBytes));
+  if (head.starts_with("ISO-10303-21")) return SourceFormat::kIfcStep;
+  if (head.size() >= 6 && head.starts_with("AC10")) return SourceFormat::kDwg;
+  if (head.starts_with("ply\n") || head.starts_with("ply\r")) return SourceFormat::kPly;
+  if (head.starts_with("glTF")) return SourceFormat::kGltf;
+  if (LooksLikeDxf(head)) return SourceFormat::kDxf;
+  if (head.starts_with("<")) return SourceFormat::kXml;
+  return SourceFormat::kUnknown;
+}
+
+std::string_view FormatName(SourceFormat format) {
+  switch (format) {
+    case SourceFormat::kIfcStep: return "IFC in STEP syntax";
+    case SourceFormat::kDxf: return "a DXF drawing";
+    case SourceFormat::kDwg: return "a DWG drawing";
+    case SourceFormat::kXml: return "an XML document";
+    case SourceFormat::kZip: return "a ZIP archive";
+    case SourceFormat::kPly: return "a PLY mesh";
+    case SourceFormat::kGltf: return "a glTF mesh";
+    case SourceFormat::kUnknown: break;
+  }
+  return "of no known format";
+}
+
+std::optional<Source> LoadSource(const std::string& path, DiagnosticSink& diagnostics, const SourceOptions& options) {
+  if (const std::string problem = options.Check(); !problem.empty()) {
+    diagnostics.Emit(DiagnosticKind::kInternalError, {}, problem);
+    return std::nullopt;
+  }
+  Expected<std::string> bytes = ReadFileText(path, options.max_bytes);
+  if (!bytes) {
+    const bool too_large = bytes.error().code == ErrorCode::kFileTooLarge;
+    diagnostics.Emit(too_large ? DiagnosticKind::kFileTooLarge : DiagnosticKind::kFileUnreadable, {}, bytes.error().message);
+    return std::nullopt;
+  }
+  Source source;
+  source.path = path;
+  if (IsGzip(*bytes)) {
+    const InflateStatus status = Inflate(*bytes, options.max_bytes, source.bytes);
+    if (status == InflateStatus::kTooLarge) {
+      diagnostics.Emit(DiagnosticKind::kFileTooLarge, {}, fmt::format("`{}` unpacks to more than {} bytes, the limit", path, options.max_bytes));
+      return std::nullopt;
+    }
+    if (status == InflateStatus::kDamaged) {
+      diagnostics.Emit(DiagnosticKind::kBadCompression, {},
+                       fmt::format("the gzip data of `{}` are damaged after {} unpacked bytes", path, source.bytes.size()),
+                       "copy or download the file again");
+      return std::nullopt;
+    }
+  } else {
+    source.bytes = std::move(*bytes);
+  }
+  source.sha256 = Sha256Hex(source.bytes);
+  source.format = DetectFormat(source.bytes);
+  return source;
+}
+
+bool IsSupported(const Source& source, DiagnosticSink& diagnostics) {
+  if (source.format == SourceFormat::kIfcStep) return true;
+  diagnostics.Emit(DiagnosticKind::kUnknownFormat, {},
+                   source.bytes.empty() ? fmt::format("`{}` is empty", source.path)
+                                        : fmt::format("`{}` is {}; a plan is read as IFC in STEP syntax", source.path, FormatName(source.format)),
+                   HintFor(source.format));
+  return false;
+}
+
+}  // namespace plumb::compiler

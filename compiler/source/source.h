@@ -1,0 +1,38 @@
+// A plan file in memory: its bytes as the frontends read them, its checksum and its format.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "compiler/diagnostics/diagnostic.h"
+
+namespace plumb::compiler {
+
+enum class SourceFormat { kUnknown, kIfcStep, kDxf, kDwg, kXml, kZip, kPly, kGltf };
+
+struct Source {
+  std::string path;
+  std::string bytes;   // decompressed
+  std::string sha256;  // of `bytes`, 64 hexadecimal digits: the same for a plain file and its .gz
+  SourceFormat format = SourceFormat::kUnknown;
+};
+
+struct SourceOptions {
+  size_t max_bytes = size_t{2} << 30;  // after decompression; guards against a small file that unpacks to all of the memory
+  // Empty if every field is valid; else names the field, its value and the rule.
+  [[nodiscard]] std::string Check() const;
+};
+
+// Reads the file at `path`, plain or gzip, told apart by its first bytes. None: it could not be read or is too large, and an error says so.
+[[nodiscard]] std::optional<Source> LoadSource(const std::string& path, DiagnosticSink& diagnostics, const SourceOptions& options = {});
+
+// Told by the first bytes alone, never by the file's name.
+[[nodiscard]] SourceFormat DetectFormat(std::string_view bytes);
+[[nodiscard]] std::string_view FormatName(SourceFormat format);  // "IFC in STEP syntax", for messages
+
+// Emits UnknownFormat, with how to go on from there, if no frontend reads `source`.
+[[nodiscard]] bool IsSupported(const Source& source, DiagnosticSink& diagnostics);
+
+}  // namespace plumb::compiler

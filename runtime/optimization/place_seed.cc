@@ -26,7 +26,10 @@ struct Row {
   Eigen::Vector2d e;
   Eigen::Matrix<double, 2, 4> J;  // of the measured deviation with respect to the correction
   Eigen::Matrix2d cov;
+  double own_bias_m, own_bias_information;
   [[nodiscard]] Eigen::Vector2d At(const Correction& x) const { return e + J * x; }
+  // Squared error, in sigmas, of the bias that the wall's own two faces show.
+  [[nodiscard]] double BiasError2(const Correction& x) const { return own_bias_information * (x[3] - own_bias_m) * (x[3] - own_bias_m); }
 };
 
 std::vector<Row> Rows(const std::vector<WallMeasurement>& walls, const std::vector<WallFrame>& frames, const Eigen::Vector2d& center) {
@@ -34,7 +37,7 @@ std::vector<Row> Rows(const std::vector<WallMeasurement>& walls, const std::vect
   for (const WallMeasurement& w : walls) {
     const WallFrame& frame = frames[w.wall.index()];
     const Eigen::Vector2d n = frame.normal.head<2>(), arm = frame.pivot.head<2>() - center;
-    Row row{w.deviation, Eigen::Matrix<double, 2, 4>::Zero(), w.covariance};
+    Row row{w.deviation, Eigen::Matrix<double, 2, 4>::Zero(), w.covariance, w.own_bias_m, w.own_bias_information};
     row.J.row(0) << n.x(), n.y(), n.dot(Eigen::Vector2d(-arm.y(), arm.x())), w.bias_gain.x();
     row.J.row(1) << 0, 0, 1, w.bias_gain.y();
     rows.push_back(row);
@@ -154,6 +157,10 @@ class Seeder {
         const Eigen::Matrix<double, 4, 2> weighted = r.J.transpose() * s.inverse();
         lhs += weighted * r.J;
         rhs -= weighted * r.e;
+        // Cauchy weight: faces of which one is wrongly associated show any thickness.
+        const double weight = r.own_bias_information / (1 + r.BiasError2(x) / (kTruncation * kTruncation));
+        lhs(3, 3) += weight;
+        rhs[3] += weight * r.own_bias_m;
       }
       x = lhs.ldlt().solve(rhs);
     }
@@ -162,7 +169,10 @@ class Seeder {
 
   double Cost(const Correction& x) const {
     double sum = 0.5 * x.dot(PriorPrecision().cwiseProduct(x));
-    for (const Row& r : rows_) sum += AssessMixture(r.At(x), r.cov, options_.coupling).cost_nats;
+    for (const Row& r : rows_) {
+      sum += AssessMixture(r.At(x), r.cov, options_.coupling).cost_nats;
+      sum += 0.5 * kTruncation * kTruncation * std::log1p(r.BiasError2(x) / (kTruncation * kTruncation));
+    }
     return sum;
   }
 

@@ -18,7 +18,8 @@ TEST(WallFrames, ReferIsTheLongestSurfaceOfEveryWall) {
     const Surface& reference = house.surfaces[frames[w].reference.index()];
     EXPECT_EQ(reference.wall, WallId(w));
     for (const Surface& s : house.surfaces) {
-      if (s.wall == WallId(w)) EXPECT_LE(s.length_m(), reference.length_m() + 1e-3);
+      if (s.wall != WallId(w)) continue;
+      EXPECT_LE(s.length_m(), reference.length_m() + 1e-3);
     }
     EXPECT_NEAR(frames[w].pivot.z(), 1.3, 1e-9);
   }

@@ -27,11 +27,6 @@ target_compile_options(plumb_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshado
 # Same input, same bytes on every machine: no fused multiply-add that one compiler makes and another does not.
 add_compile_options(-ffp-contract=off)
 
-# GCC 12 sees overlapping copies in plain string concatenation (its bug 105651).
-if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
-  target_compile_options(plumb_warnings INTERFACE -Wno-restrict)
-endif()
-
 if(PLUMB_SANITIZE)
   string(REPLACE ";" "," _sanitizers "${PLUMB_SANITIZE}")
   add_compile_options(-fsanitize=${_sanitizers} -fno-omit-frame-pointer -fno-sanitize-recover=all)

@@ -38,7 +38,7 @@ std::string Planned(const Surface& s, const SurfaceEntry& entry, const Sheet& sh
 // The parts of deviated surfaces, in the order in which they are drawn. What became wall comes below what became free, so that a wall that
 // moved by more than its thickness is seen where it stands.
 struct DeviatedLayers {
-  std::string wall_now, free_now, built;
+  std::string wall_now, free_now, planned, built;
 };
 
 void AddDeviated(const Surface& s, const SurfaceEntry& entry, double limit_m, const Sheet& sheet, DeviatedLayers& layers) {
@@ -56,6 +56,7 @@ void AddDeviated(const Surface& s, const SurfaceEntry& entry, double limit_m, co
   } else {
     layers.free_now += fmt::format("<path class=\"dev free-now\" d=\"{}\" {}/>\n", area, data);
   }
+  layers.planned += fmt::format("<path class=\"planned\" d=\"{}\"/>\n", sheet.Line(s.start, s.end));
   layers.built += fmt::format("<path class=\"dev built\" d=\"{}\" {}/>\n", sheet.Line(s.start + start, s.end + end), data);
 }
 
@@ -92,6 +93,7 @@ std::string DeviationStyle() {
 .plan .missing{stroke:#c2185b;stroke-width:8;stroke-dasharray:16 9;fill:none}
 .plan .wall-now{fill:var(--dev);fill-opacity:.5}
 .plan .free-now{fill:var(--floor)}
+.plan .planned{stroke:var(--ink);stroke-width:1.4;stroke-dasharray:9 6;fill:none}
 .plan .built{stroke:var(--dev);stroke-width:7;fill:none}
 .plan .tag circle{fill:var(--paper);stroke:var(--dev);stroke-width:3.5}
 .plan .tag text{font-weight:700}
@@ -111,7 +113,7 @@ std::string DrawSurfaces(const AGraph& graph, StoreyId storey, const Deviations&
       planned += Planned(s, entry, sheet);
     }
   }
-  return planned + deviated.wall_now + deviated.free_now + deviated.built;
+  return planned + deviated.wall_now + deviated.free_now + deviated.planned + deviated.built;
 }
 
 std::string DrawWallNumbers(const AGraph& graph, StoreyId storey, const std::vector<WallRow>& rows, const Sheet& sheet) {

@@ -22,7 +22,8 @@ struct OpeningElements {
   std::vector<std::vector<uint32_t>> of_doorway, of_window;
 };
 
-// Appends to graph.doorways: every door, and every unfilled opening through a wall that a person can walk through. The rooms are found by
+// Appends to graph.doorways: every door, and every unfilled opening through a wall that a person can walk through from one room to another or
+// outside (once, where the layers of a wall are walls of their own, each with its opening). The rooms are found by
 // probing away from the wall on both sides, past cavities and further walls up to max_reach_m. room_a is the room with the lower
 // id; outside is always room_b. Appends to graph.windows: every window in a wall. Needs graph.walls and graph.rooms.
 OpeningElements AddDoorwaysAndWindows(const PlanIr& plan, const FloorIr& floors, const RoomsByFace& rooms, const std::vector<HostedOpening>& openings,

@@ -142,7 +142,9 @@ class Host {
     out.floor = LevelAt(levels_, out.z_min_m, options_.storey_slack_m);
     out.storey = StoreyOf(c, levels_[out.floor], out.z_min_m);
     out.center = c.box.center().head<2>();
-    const uint32_t wall = c.wall != kNoIndex ? c.wall : NearestWall(out);
+    const bool stated = c.wall != kNoIndex && Meets(out.center, c.wall, out.floor);
+    if (c.wall != kNoIndex && !stated && out.use == OpeningUse::kUnfilled) return std::nullopt;
+    const uint32_t wall = stated ? c.wall : NearestWall(out);
     if (wall == kNoIndex) {
       if (out.use == OpeningUse::kUnfilled) return std::nullopt;
       const SourceLocation& where = LocationOf(c);
@@ -179,6 +181,13 @@ class Host {
       }
     }
     return any;
+  }
+
+  // Whether the wall that the source states is anywhere near.
+  bool Meets(const Eigen::Vector2d& center, uint32_t wall, size_t floor) const {
+    const Footprint* footprint = FootprintOf(wall, floor);
+    if (footprint == nullptr) return true;
+    return WindingNumber(footprint->rings, center) != 0 || DistanceToRings(center, footprint->rings) <= options_.max_host_distance_m;
   }
 
   uint32_t NearestWall(const HostedOpening& o) const {

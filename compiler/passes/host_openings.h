@@ -26,13 +26,13 @@ struct HostedOpening {
 };
 
 struct HostingOptions {
-  double max_host_distance_m = 0.3;   // from the middle of a door or window without an opening to its wall
+  double max_host_distance_m = 0.3;   // from the middle of an opening, door or window to its wall
   double max_filling_offset_m = 0.5;  // between the middles of an unfilled opening and the door or window in it that the source does not tie to it
   double storey_slack_m = 0.5;        // how far a sill may lie below its level's zero
   [[nodiscard]] std::string Check() const;
 };
 
-// In the order of openings, then of elements. Openings in slabs and roofs are left out. Needs graph.walls and graph.storeys.
+// In the order of openings, then of elements. Openings in slabs and roofs and unfilled ones that miss their wall are left out. Needs graph.walls and graph.storeys.
 [[nodiscard]] std::vector<HostedOpening> HostOpenings(const PlanIr& plan, const FloorIr& floors, const HostingOptions& options, const AGraph& graph,
                                                       DiagnosticSink& sink);
 

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "compiler/geometry/stitch.h"
+
 namespace plumb::compiler {
 namespace {
 
@@ -191,14 +193,12 @@ Polygons ToPolygons(const Solid& solid, const Vector3d& origin, double epsilon_m
   return out;
 }
 
-Solid ToSolid(const Polygons& polygons, const Vector3d& origin, double epsilon_m) {
-  Solid solid;
-  for (const Polygon& p : polygons) {
-    const int base = static_cast<int>(solid.vertices.size());
-    for (const Vector3d& v : p.points) solid.vertices.push_back(v);
-    for (int i = 2; i < static_cast<int>(p.points.size()); ++i) solid.triangles.emplace_back(base, base + i - 1, base + i);
-  }
-  WeldSolid(epsilon_m, solid);
+Solid ToSolid(Polygons polygons, const Vector3d& origin, double epsilon_m) {
+  std::vector<Ring3> rings;
+  rings.reserve(polygons.size());
+  for (Polygon& p : polygons) rings.push_back(std::move(p.points));
+  // Cuts by different planes meet within the planes' thickness, not in one point.
+  Solid solid = StitchPolygons(rings, 2 * epsilon_m);
   for (Vector3d& v : solid.vertices) v += origin;
   return solid;
 }
@@ -248,7 +248,6 @@ Expected<Solid> Run(const Solid& a, const Solid& b, bool close, const CsgOptions
       untouched &= all;
     }
     if (close) {
-      // Far from b's box, a is passed on whole: only the near part of it has to tell inside from outside, but the tree needs all of it.
       const std::unique_ptr<Node> tree_a = csg.Build(std::move(faces_a));
       for (const Polygon& p : faces_b) {
         if (!Overlaps(p, box_a)) continue;
@@ -262,7 +261,7 @@ Expected<Solid> Run(const Solid& a, const Solid& b, bool close, const CsgOptions
       }
     }
     if (untouched) return a;
-    return ToSolid(kept, origin, epsilon_m);
+    return ToSolid(std::move(kept), origin, epsilon_m);
   } catch (const LimitReached&) {
     return Fail(ErrorCode::kInternal, fmt::format("the difference of solids of {} and {} triangles needs more than {} polygons or {} levels",
                                                   a.triangles.size(), b.triangles.size(), options.max_polygons, options.max_depth));

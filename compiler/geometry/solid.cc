@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
-#include <unordered_map>
+#include <tuple>
 #include <utility>
 
 namespace plumb::compiler {
@@ -13,53 +13,13 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3i;
 
-// Finds an earlier point within a tolerance by hashing points to cells much larger than it; only points near a cell's border are looked
-// up in more than one cell.
-class PointIndex {
- public:
-  explicit PointIndex(double tolerance_m) : tolerance_m_(tolerance_m), cell_m_(16 * tolerance_m) {}
+int64_t Cell(double x) { return static_cast<int64_t>(std::floor(std::clamp(x, -1e15, 1e15))); }
 
-  int FindOrAdd(const Vector3d& p) {
-    const Vector3d low = (p.array() - tolerance_m_) / cell_m_, high = (p.array() + tolerance_m_) / cell_m_;
-    for (int64_t x = Cell(low.x()); x <= Cell(high.x()); ++x) {
-      for (int64_t y = Cell(low.y()); y <= Cell(high.y()); ++y) {
-        for (int64_t z = Cell(low.z()); z <= Cell(high.z()); ++z) {
-          const int found = FindInCell(Key(x, y, z), p);
-          if (found >= 0) return found;
-        }
-      }
-    }
-    const int index = static_cast<int>(points_.size());
-    points_.push_back(p);
-    int& head = heads_.try_emplace(Key(Cell(p.x() / cell_m_), Cell(p.y() / cell_m_), Cell(p.z() / cell_m_)), -1).first->second;
-    next_.push_back(head);
-    head = index;
-    return index;
-  }
-
-  std::vector<Vector3d> Take() { return std::move(points_); }
-
- private:
-  static int64_t Cell(double x) { return static_cast<int64_t>(std::floor(std::clamp(x, -1e15, 1e15))); }
-  static uint64_t Key(int64_t x, int64_t y, int64_t z) {
-    const auto mix = [](int64_t v, uint64_t k) { return static_cast<uint64_t>(v) * k; };
-    const uint64_t h = mix(x, 0x9e3779b97f4a7c15u) ^ mix(y, 0xc2b2ae3d27d4eb4fu) ^ mix(z, 0x165667b19e3779f9u);
-    return h ^ h >> 29;
-  }
-  int FindInCell(uint64_t key, const Vector3d& p) const {
-    const auto it = heads_.find(key);
-    if (it == heads_.end()) return -1;
-    for (int i = it->second; i >= 0; i = next_[static_cast<size_t>(i)]) {
-      if ((points_[static_cast<size_t>(i)] - p).squaredNorm() <= tolerance_m_ * tolerance_m_) return i;
-    }
-    return -1;
-  }
-
-  double tolerance_m_, cell_m_;
-  std::vector<Vector3d> points_;
-  std::vector<int> next_;  // in the same cell
-  std::unordered_map<uint64_t, int> heads_;
-};
+uint64_t CellKey(int64_t x, int64_t y, int64_t z) {
+  const auto mix = [](int64_t v, uint64_t k) { return static_cast<uint64_t>(v) * k; };
+  const uint64_t h = mix(x, 0x9e3779b97f4a7c15u) ^ mix(y, 0xc2b2ae3d27d4eb4fu) ^ mix(z, 0x165667b19e3779f9u);
+  return h ^ h >> 29;
+}
 
 // A triangle's side from vertex a to vertex b, under the undirected key.
 struct Side {
@@ -133,6 +93,35 @@ const Vector3d& Corner(const Solid& solid, const Vector3i& t, int k) { return so
 
 }  // namespace
 
+VertexWelder::VertexWelder(double tolerance_m) : tolerance_m_(tolerance_m), cell_m_(16 * tolerance_m) {}
+
+int VertexWelder::FindOrAdd(const Vector3d& p) {
+  const Vector3d low = (p.array() - tolerance_m_) / cell_m_, high = (p.array() + tolerance_m_) / cell_m_;
+  for (int64_t x = Cell(low.x()); x <= Cell(high.x()); ++x) {
+    for (int64_t y = Cell(low.y()); y <= Cell(high.y()); ++y) {
+      for (int64_t z = Cell(low.z()); z <= Cell(high.z()); ++z) {
+        const int found = FindInCell(CellKey(x, y, z), p);
+        if (found >= 0) return found;
+      }
+    }
+  }
+  const int index = static_cast<int>(points_.size());
+  points_.push_back(p);
+  int& head = heads_.try_emplace(CellKey(Cell(p.x() / cell_m_), Cell(p.y() / cell_m_), Cell(p.z() / cell_m_)), -1).first->second;
+  next_.push_back(head);
+  head = index;
+  return index;
+}
+
+int VertexWelder::FindInCell(uint64_t key, const Vector3d& p) const {
+  const auto it = heads_.find(key);
+  if (it == heads_.end()) return -1;
+  for (int i = it->second; i >= 0; i = next_[static_cast<size_t>(i)]) {
+    if ((points_[static_cast<size_t>(i)] - p).squaredNorm() <= tolerance_m_ * tolerance_m_) return i;
+  }
+  return -1;
+}
+
 double Volume(const Solid& solid) {
   if (solid.empty()) return 0;
   const Vector3d origin = Corner(solid, solid.triangles[0], 0);  // near the solid: far coordinates would cost digits
@@ -189,7 +178,7 @@ void AppendSolid(const Solid& from, Solid& into) {
 }
 
 void WeldSolid(double tolerance_m, Solid& solid) {
-  PointIndex index(tolerance_m);
+  VertexWelder index(tolerance_m);
   std::vector<int> renamed(solid.vertices.size(), -1);
   std::vector<Vector3i> kept;
   kept.reserve(solid.triangles.size());

@@ -3,6 +3,9 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <cstdint>
+#include <unordered_map>
+#include <utility>
 #include <vector>
 
 namespace plumb::compiler {
@@ -27,6 +30,23 @@ struct Solid {
 void TransformSolid(const Eigen::Affine3d& T_out_in, Solid& solid);
 void AppendSolid(const Solid& from, Solid& into);
 void FlipSolid(Solid& solid);
+
+// Finds an earlier point within a tolerance by hashing points to cells much larger than it; only points near a cell's border are looked up
+// in more than one cell. O(1) a point.
+class VertexWelder {
+ public:
+  explicit VertexWelder(double tolerance_m);
+  [[nodiscard]] int FindOrAdd(const Eigen::Vector3d& p);  // its number
+  [[nodiscard]] std::vector<Eigen::Vector3d> Take() { return std::move(points_); }  // by number
+
+ private:
+  [[nodiscard]] int FindInCell(uint64_t key, const Eigen::Vector3d& p) const;
+
+  double tolerance_m_, cell_m_;
+  std::vector<Eigen::Vector3d> points_;
+  std::vector<int> next_;  // in the same cell
+  std::unordered_map<uint64_t, int> heads_;
+};
 
 // Makes vertices closer than `tolerance_m` one, drops triangles that lose a corner by it and vertices that no triangle uses.
 void WeldSolid(double tolerance_m, Solid& solid);

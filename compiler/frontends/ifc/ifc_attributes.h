@@ -11,6 +11,7 @@ namespace plumb::compiler::attribute {
 inline constexpr size_t kGlobalId = 0, kName = 2, kObjectType = 4, kPlacement = 5, kRepresentation = 6;
 inline constexpr size_t kSpatialLongName = 7, kStoreyElevation = 9;
 inline constexpr size_t kOverallHeight = 8, kOverallWidth = 9;  // IfcDoor, IfcWindow
+inline constexpr size_t kSlabType = 8;
 inline constexpr size_t kProjectUnits = 8;
 
 // Relations.

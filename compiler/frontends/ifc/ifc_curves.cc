@@ -127,6 +127,7 @@ CurvePoints CurveReader::Read(const IfcInstance& curve, int depth) const {
       return out;
     case IfcType::kIfcIndexedPolyCurve: return Indexed(curve);
     case IfcType::kIfcCompositeCurve:
+    case IfcType::kIfc2DCompositeCurve:  // IFC2X
     case IfcType::kIfcCompositeCurveOnSurface:
     case IfcType::kIfcBoundaryCurve:
     case IfcType::kIfcOuterBoundaryCurve: return Composite(curve, depth);

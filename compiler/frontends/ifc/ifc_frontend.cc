@@ -81,7 +81,7 @@ class Frontend {
     uint32_t instance = kNone;
     uint32_t product = kNoIndex;  // that it voids
     std::vector<Solid> solids;
-    bool cuts = false;
+    bool cuts = false, cut_before = false;
   };
 
   std::string TextOf(uint32_t instance, size_t attribute_index) const { return model_.Get(instance)[attribute_index].Text(); }
@@ -135,6 +135,7 @@ class Frontend {
       Product product;
       product.instance = instance;
       product.kind = *kinds_.Of(instance);
+      if (product.kind == ElementKind::kSlab && model_.Get(instance)[attribute::kSlabType].Enumeration() == "ROOF") product.kind = ElementKind::kRoof;
       product.parts = PlacedBody(instance);
       const uint32_t material = relations_.MaterialOf(instance);
       const Look look = material == kNone ? Look::kUnstated : styles_.OfMaterial(model_.Get(material));
@@ -232,15 +233,7 @@ class Frontend {
   }
 
   void Cut(uint32_t product_index, ShapeParts& parts) {
-    if (hosts_.empty()) {
-      for (const Opening& opening : openings_) {
-        if (opening.product != kNoIndex) hosts_.push_back(opening.product);
-      }
-      std::sort(hosts_.begin(), hosts_.end());
-    }
     const Product& product = products_[product_index];
-    const auto is_host = [&](uint32_t p) { return std::binary_search(hosts_.begin(), hosts_.end(), p); };
-    if (!is_host(product_index) && relations_.WholeOf(product.instance) == kNone) return;
     for (Opening* opening : OpeningsOf(product_index)) {
       for (const Solid& tool : opening->solids) {
         for (ShapePart& part : parts) opening->cuts |= CutOpening(model_, {product.instance, opening->instance}, options_, tool, part.solid);
@@ -306,7 +299,22 @@ class Frontend {
       }
       ShapeParts parts = product.parts;
       Cut(p, parts);
+      if (IsWallLike(product.kind) && element.arcs.empty()) RestoreUncut(p, element.uncut);
       AddElements(p, std::move(element), parts);
+    }
+  }
+
+  // Some programs write bodies that are cut already: there `uncut` gets back what its openings took.
+  void RestoreUncut(uint32_t product, Solid& uncut) {
+    const Solid before = uncut;
+    const uint32_t instance = products_[product].instance;
+    for (Opening& opening : openings_) {
+      if (opening.product != product || opening.cuts) continue;
+      for (const Solid& solid : opening.solids) {
+        const Solid piece = PieceCutBefore(solid, placements_.ObjectPlacement(model_.Get(instance)[attribute::kPlacement]), before, options_);
+        opening.cut_before |= !piece.empty();
+        AppendSolid(piece, uncut);
+      }
     }
   }
 
@@ -398,7 +406,7 @@ class Frontend {
     out.wall = opening.product == kNoIndex ? kNoIndex : element_of_[opening.product];
     for (const Solid& solid : opening.solids) AppendSolid(solid, out.body);
     if (filling != kNoIndex) DescribeFilling(filling, out);
-    if (!opening.cuts && !opening.solids.empty() && out.wall != kNoIndex) {
+    if (!opening.cuts && !opening.cut_before && !opening.solids.empty() && out.wall != kNoIndex) {
       model_.Emit(DiagnosticKind::kOpeningMissesHost, opening.instance,
                   fmt::format("the opening {} does not meet {}, which it should cut", model_.Label(opening.instance), model_.Label(relations_.HostOf(opening.instance))));
     }
@@ -494,7 +502,6 @@ class Frontend {
   std::vector<Product> products_;
   std::vector<uint32_t> element_of_;  // by product
   std::vector<Opening> openings_;
-  std::vector<uint32_t> hosts_;  // products that openings void, sorted
 };
 
 }  // namespace

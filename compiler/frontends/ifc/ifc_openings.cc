@@ -10,7 +10,7 @@
 namespace plumb::compiler {
 namespace {
 
-constexpr double kMinRemoved_m3 = 1e-9;
+constexpr double kMinRemoved_m3 = 1e-9, kMinPiece_m3 = 1e-4;
 
 }  // namespace
 
@@ -39,6 +39,20 @@ bool CutOpening(const IfcModel& model, CutPair pair, const IfcOptions& options, 
   }
   body = std::move(*rest);
   return removed_m3 > kMinRemoved_m3;
+}
+
+Solid PieceCutBefore(const Solid& opening, const Eigen::Isometry3d& T_plan_wall, const Solid& wall, const IfcOptions& options) {
+  constexpr double kMaxThickness_m = 1, kMinLengthRatio = 2;
+  Eigen::AlignedBox3d box;
+  for (const Eigen::Vector3d& v : wall.vertices) box.extend(T_plan_wall.inverse() * v);
+  if (box.isEmpty()) return {};
+  const double x_m = box.sizes().x(), y_m = box.sizes().y();
+  if (std::min(x_m, y_m) > kMaxThickness_m || std::max(x_m, y_m) < kMinLengthRatio * std::min(x_m, y_m)) return {};
+  const Solid whole = MakeBox(box.min(), box.max(), Eigen::Affine3d(T_plan_wall.matrix()));
+  const CsgOptions csg{.plane_epsilon_m = options.plane_epsilon_m};
+  const Expected<Solid> outside = Subtract(whole, opening, csg);
+  if (!outside || Volume(whole) - Volume(*outside) < kMinPiece_m3) return {};
+  return Subtract(whole, *outside, csg).value_or(Solid());
 }
 
 std::vector<std::pair<uint32_t, uint32_t>> MatchFillings(const std::vector<FillCandidate>& fillings, const std::vector<FillCandidate>& openings,

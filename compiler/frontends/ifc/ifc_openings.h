@@ -19,6 +19,10 @@ struct CutPair {
 // impossible volume is left out, with a BooleanFailed diagnostic.
 bool CutOpening(const IfcModel& model, CutPair pair, const IfcOptions& options, const Solid& tool, Solid& body);
 
+// What `opening` takes of a straight wall whose body the program that wrote the file has cut already: the part of the opening within the
+// wall's box in the wall's own frame. Empty if the wall is no thin upright box, or if they do not meet.
+[[nodiscard]] Solid PieceCutBefore(const Solid& opening, const Eigen::Isometry3d& T_plan_wall, const Solid& wall, const IfcOptions& options);
+
 struct FillCandidate {
   uint32_t index;
   Eigen::AlignedBox3d box;

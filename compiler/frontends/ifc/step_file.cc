@@ -22,14 +22,12 @@ const char* Find(const char* p, const char* end, char c) {
   return p < end ? static_cast<const char*>(std::memchr(p, c, static_cast<size_t>(end - p))) : nullptr;
 }
 
-// Type names to numbers: open addressing, FNV-1a over the letters.
+// Type names to numbers: open addressing over a hash of both ends of the name.
 class TypeTable {
  public:
   // kMaxTypes if the table is full.
   size_t Intern(std::string_view name, std::vector<std::string>& names) {
-    uint32_t hash = 2166136261u;
-    for (const char c : name) hash = (hash ^ static_cast<unsigned char>(c)) * 16777619u;
-    for (size_t slot = hash & (kSlots - 1);; slot = (slot + 1) & (kSlots - 1)) {
+    for (size_t slot = Hash(name) & (kSlots - 1);; slot = (slot + 1) & (kSlots - 1)) {
       if (slots_[slot] == 0) {
         if (names.size() >= kSlots / 2) return kMaxTypes;
         names.emplace_back(name);
@@ -41,6 +39,15 @@ class TypeTable {
   }
 
  private:
+  static uint64_t Hash(std::string_view name) {
+    uint64_t head = 0, tail = 0;
+    const size_t n = std::min(name.size(), sizeof head);
+    std::memcpy(&head, name.data(), n);
+    std::memcpy(&tail, name.data() + name.size() - n, n);
+    const uint64_t hash = (head * 0x9e3779b97f4a7c15u) ^ (tail * 0xc2b2ae3d27d4eb4fu) ^ name.size();
+    return hash ^ hash >> 32;
+  }
+
   static constexpr size_t kSlots = size_t{1} << 14;  // IFC4X3 has about 1,000 types; the bound keeps hostile files cheap
   std::vector<uint16_t> slots_ = std::vector<uint16_t>(kSlots, 0);
 };

@@ -1,0 +1,117 @@
+#include "compiler/source/source.h"
+
+#include <gtest/gtest.h>
+#include <zlib.h>
+
+#include <filesystem>
+
+#include "schema/files.h"
+
+namespace plumb::compiler {
+namespace {
+
+std::string Gzip(const std::string& text) {
+  z_stream stream{};
+  EXPECT_EQ(deflateInit2(&stream, 9, Z_DEFLATED, 16 + MAX_WBITS, 8, Z_DEFAULT_STRATEGY), Z_OK);
+  std::string out(deflateBound(&stream, text.size()) + 64, '\0');
+  std::string in = text;
+  stream.next_in = reinterpret_cast<Bytef*>(in.data());
+  stream.avail_in = static_cast<uInt>(in.size());
+  stream.next_out = reinterpret_cast<Bytef*>(out.data());
+  stream.avail_out = static_cast<uInt>(out.size());
+  EXPECT_EQ(deflate(&stream, Z_FINISH), Z_STREAM_END);
+  out.resize(stream.total_out);
+  deflateEnd(&stream);
+  return out;
+}
+
+class SourceTest : public ::testing::Test {
+ protected:
+  std::string Write(const std::string& name, const std::string& bytes) {
+    const std::string path = folder_ + "/" + name;
+    EXPECT_TRUE(WriteFileAtomically(path, bytes));
+    return path;
+  }
+  void SetUp() override { std::filesystem::create_directories(folder_); }
+  void TearDown() override { std::filesystem::remove_all(folder_); }
+
+  std::string folder_ = ::testing::TempDir() + "plumb_source_" + ::testing::UnitTest::GetInstance()->current_test_info()->name();
+  DiagnosticSink diagnostics_;
+};
+
+TEST_F(SourceTest, PlainAndGzipGiveTheSameSource) {
+  const std::string text = "ISO-10303-21;\nHEADER;\n" + std::string(300000, 'x');
+  const auto plain = LoadSource(Write("a.ifc", text), diagnostics_);
+  const auto packed = LoadSource(Write("b.anything", Gzip(text)), diagnostics_);
+  ASSERT_TRUE(plain && packed);
+  EXPECT_EQ(plain->bytes, text);
+  EXPECT_EQ(packed->bytes, text);
+  EXPECT_EQ(plain->sha256, packed->sha256);
+  EXPECT_EQ(packed->format, SourceFormat::kIfcStep);
+  EXPECT_TRUE(diagnostics_.all().empty());
+}
+
+TEST_F(SourceTest, GzipOfSeveralMembersIsReadWhole) {
+  const auto source = LoadSource(Write("a.gz", Gzip("ISO-10303-21;") + Gzip("\nDATA;")), diagnostics_);
+  ASSERT_TRUE(source);
+  EXPECT_EQ(source->bytes, "ISO-10303-21;\nDATA;");
+}
+
+TEST_F(SourceTest, BombsStopAtTheLimit) {
+  const auto source = LoadSource(Write("bomb.gz", Gzip(std::string(5000000, '0'))), diagnostics_, {.max_bytes = 1000000});
+  EXPECT_FALSE(source);
+  ASSERT_EQ(diagnostics_.all().size(), 1u);
+  EXPECT_EQ(diagnostics_.all()[0].kind, DiagnosticKind::kFileTooLarge);
+}
+
+TEST_F(SourceTest, LimitHoldsForPlainFilesToo) {
+  EXPECT_FALSE(LoadSource(Write("a.ifc", std::string(2000, 'x')), diagnostics_, {.max_bytes = 1000}));
+  ASSERT_EQ(diagnostics_.all().size(), 1u);
+  EXPECT_EQ(diagnostics_.all()[0].kind, DiagnosticKind::kFileTooLarge);
+}
+
+TEST_F(SourceTest, TruncatedAndDamagedGzipAreErrors) {
+  std::string packed = Gzip(std::string(100000, 'a') + std::string(1000, 'b'));
+  EXPECT_FALSE(LoadSource(Write("cut.gz", packed.substr(0, packed.size() / 2)), diagnostics_));
+  packed[packed.size() - 6] ^= 0x55;  // in the checksum
+  EXPECT_FALSE(LoadSource(Write("bad.gz", packed), diagnostics_));
+  ASSERT_EQ(diagnostics_.all().size(), 2u);
+  for (const Diagnostic& d : diagnostics_.all()) EXPECT_EQ(d.kind, DiagnosticKind::kBadCompression);
+}
+
+TEST_F(SourceTest, MissingFileIsAnError) {
+  EXPECT_FALSE(LoadSource(folder_ + "/none.ifc", diagnostics_));
+  ASSERT_EQ(diagnostics_.all().size(), 1u);
+  EXPECT_EQ(diagnostics_.all()[0].kind, DiagnosticKind::kFileUnreadable);
+}
+
+TEST(DetectFormat, TellsFormatsByTheirFirstBytes) {
+  EXPECT_EQ(DetectFormat("ISO-10303-21;\nHEADER;"), SourceFormat::kIfcStep);
+  EXPECT_EQ(DetectFormat("\xef\xbb\xbf\r\n  ISO-10303-21;"), SourceFormat::kIfcStep);
+  EXPECT_EQ(DetectFormat("  0\r\nSECTION\r\n  2\r\nHEADER"), SourceFormat::kDxf);
+  EXPECT_EQ(DetectFormat("999\nmade by hand\n0\nSECTION\n"), SourceFormat::kDxf);
+  EXPECT_EQ(DetectFormat("AC1032\0\0\0"), SourceFormat::kDwg);
+  EXPECT_EQ(DetectFormat("<?xml version=\"1.0\"?><svg/>"), SourceFormat::kXml);
+  EXPECT_EQ(DetectFormat(std::string_view("PK\x03\x04zip", 7)), SourceFormat::kZip);
+  EXPECT_EQ(DetectFormat("ply\nformat ascii 1.0\n"), SourceFormat::kPly);
+  EXPECT_EQ(DetectFormat("glTF\x02"), SourceFormat::kGltf);
+  EXPECT_EQ(DetectFormat("hello"), SourceFormat::kUnknown);
+  EXPECT_EQ(DetectFormat(""), SourceFormat::kUnknown);
+}
+
+TEST(IsSupported, RefusesOthersWithAWayOut) {
+  DiagnosticSink diagnostics;
+  EXPECT_FALSE(IsSupported({.path = "a.dwg", .bytes = "AC1032", .sha256 = {}, .format = SourceFormat::kDwg}, diagnostics));
+  ASSERT_EQ(diagnostics.all().size(), 1u);
+  EXPECT_EQ(diagnostics.all()[0].kind, DiagnosticKind::kUnknownFormat);
+  EXPECT_NE(diagnostics.all()[0].message.find("DWG"), std::string::npos);
+  EXPECT_NE(diagnostics.all()[0].hint.find("DXF"), std::string::npos);
+}
+
+TEST(SourceOptions, CheckNamesFieldAndRule) {
+  EXPECT_EQ(SourceOptions().Check(), "");
+  EXPECT_NE(SourceOptions{.max_bytes = 0}.Check().find("max_bytes = 0"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace plumb::compiler

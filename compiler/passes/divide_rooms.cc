@@ -40,8 +40,10 @@ std::vector<Outline> PartsOf(const std::vector<Ring>& face, const std::vector<Ou
 }  // namespace
 
 std::string DivideOptions::Check() const {
-  if (!(min_inside_share > 0.5 && min_inside_share <= 1)) return fmt::format("DivideOptions.min_inside_share = {}; must be in (0.5, 1]", min_inside_share);
-  if (!(max_overlap_share >= 0 && max_overlap_share < 1)) return fmt::format("DivideOptions.max_overlap_share = {}; must be in [0, 1)", max_overlap_share);
+  if (!(min_inside_share > 0.5 && min_inside_share <= 1))
+    return fmt::format("DivideOptions.min_inside_share = {}; must be in (0.5, 1]", min_inside_share);
+  if (!(max_overlap_share >= 0 && max_overlap_share < 1))
+    return fmt::format("DivideOptions.max_overlap_share = {}; must be in [0, 1)", max_overlap_share);
   if (!(min_area_m2 >= 0)) return fmt::format("DivideOptions.min_area_m2 = {}; must not be negative", min_area_m2);
   return {};
 }
@@ -68,7 +70,8 @@ size_t FloorOfStorey(const FloorIr& floors, uint32_t storey) {
   return floors.floors.size() - 1;
 }
 
-Expected<void> DivideRooms(const PlanIr& plan, const DivideOptions& options, const PlanarMapOptions& map_options, FloorIr& floors, DiagnosticSink& sink) {
+Expected<void> DivideRooms(const PlanIr& plan, const DivideOptions& options, const PlanarMapOptions& map_options, FloorIr& floors,
+                           DiagnosticSink& sink) {
   std::vector<std::vector<Outline>> outlines(floors.floors.size());
   for (uint32_t s = 0; s < plan.spaces.size(); ++s) {
     const size_t f = FloorOfStorey(floors, plan.spaces[s].storey);
@@ -85,8 +88,8 @@ Expected<void> DivideRooms(const PlanIr& plan, const DivideOptions& options, con
       for (Outline& part : parts) {
         const PlanSpace& space = plan.spaces[part.space];
         sink.Emit(DiagnosticKind::kSpaceWithinRoom, space.location,
-                  fmt::format("no walls divide space `{}` ({:.2f} m2) from the rest of an open plan of {:.2f} m2; its own outline does", space.name,
-                              part.area_m2, face.area_m2));
+                  fmt::format("no walls divide space `{}` ({:.2f} m2) from the rest of an open plan of {:.2f} m2; its own outline does",
+                              space.name, part.area_m2, face.area_m2));
         floor.dividers.push_back({part.space, std::move(part.rings)});
       }
     }
@@ -113,7 +116,8 @@ void AddOpenBoundaries(const FloorIr& floors, const std::vector<std::vector<Room
             continue;
           }
           const Eigen::Vector2d &from = floor.vertices[edge.from], &to = floor.vertices[edge.to];
-          if (extends && graph.open_boundaries.back().room_b == other && DistanceToSegment(from, graph.open_boundaries.back().start, to) <= kCollinear_m) {
+          if (extends && graph.open_boundaries.back().room_b == other &&
+              DistanceToSegment(from, graph.open_boundaries.back().start, to) <= kCollinear_m) {
             graph.open_boundaries.back().end = to;
           } else {
             graph.open_boundaries.push_back({graph.rooms[room.index()].storey, room, other, from, to});

@@ -22,8 +22,8 @@ struct DivideOptions {
 [[nodiscard]] size_t FloorOfStorey(const FloorIr& floors, uint32_t storey);
 
 // Where two or more spaces that do not overlap lie within one free face: sets Floor::dividers and builds the map anew. Errors: kInternal.
-[[nodiscard]] Expected<void> DivideRooms(const PlanIr& plan, const DivideOptions& options, const PlanarMapOptions& map_options, FloorIr& floors,
-                                         DiagnosticSink& sink);
+[[nodiscard]] Expected<void> DivideRooms(const PlanIr& plan, const DivideOptions& options, const PlanarMapOptions& map_options,
+                                         FloorIr& floors, DiagnosticSink& sink);
 
 // Appends to graph.open_boundaries the lines along which rooms of an open plan meet.
 void AddOpenBoundaries(const FloorIr& floors, const std::vector<std::vector<RoomId>>& rooms_by_face, AGraph& graph);

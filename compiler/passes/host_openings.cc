@@ -148,8 +148,9 @@ class Host {
     if (wall == kNoIndex) {
       if (out.use == OpeningUse::kUnfilled) return std::nullopt;
       const SourceLocation& where = LocationOf(c);
-      sink_.Emit(DiagnosticKind::kOpeningWithoutWall, where,
-                 fmt::format("no wall within {:.2f} m of {}; doors and windows stand in walls", options_.max_host_distance_m, where.ToString()));
+      sink_.Emit(
+          DiagnosticKind::kOpeningWithoutWall, where,
+          fmt::format("no wall within {:.2f} m of {}; doors and windows stand in walls", options_.max_host_distance_m, where.ToString()));
       AlignToSelf(c, out);
       return out;
     }
@@ -258,7 +259,8 @@ class Host {
   }
 
   // Where the line at + t * across runs inside the rings, the interval nearest to t = 0. Falls back to the wall's axis and thickness.
-  static std::pair<double, double> SolidInterval(const std::vector<Ring>& rings, const Eigen::Vector2d& at, const Eigen::Vector2d& across, const Wall& wall) {
+  static std::pair<double, double> SolidInterval(const std::vector<Ring>& rings, const Eigen::Vector2d& at, const Eigen::Vector2d& across,
+                                                 const Wall& wall) {
     std::vector<std::pair<double, int>> crossings;
     for (const Ring& ring : rings) {
       for (size_t i = 0; i < ring.size(); ++i) {
@@ -303,7 +305,8 @@ std::string HostingOptions::Check() const {
   return {};
 }
 
-std::vector<HostedOpening> HostOpenings(const PlanIr& plan, const FloorIr& floors, const HostingOptions& options, const AGraph& graph, DiagnosticSink& sink) {
+std::vector<HostedOpening> HostOpenings(const PlanIr& plan, const FloorIr& floors, const HostingOptions& options, const AGraph& graph,
+                                        DiagnosticSink& sink) {
   return Host(plan, floors, options, graph, sink).Run();
 }
 

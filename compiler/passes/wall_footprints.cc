@@ -37,7 +37,11 @@ Ring Rounded(const Ring& ring, double grid_m) {
 class FootprintCutter {
  public:
   FootprintCutter(const PlanIr& plan, const std::vector<Level>& levels, const FootprintOptions& options, DiagnosticSink& sink)
-      : plan_(plan), levels_(levels), options_(options), sink_(sink), covers_(plan, {ElementKind::kRoof, ElementKind::kSlab, ElementKind::kCovering}) {}
+      : plan_(plan),
+        levels_(levels),
+        options_(options),
+        sink_(sink),
+        covers_(plan, {ElementKind::kRoof, ElementKind::kSlab, ElementKind::kCovering}) {}
 
   FloorIr Run() {
     out_.walls = CollectWalls(plan_, sink_);
@@ -88,10 +92,12 @@ class FootprintCutter {
     Floor& floor = FloorOf(wall.storey);
     Add(floor, FootprintKind::kWall, index, wall.elements, {Middle(wall)}, false);
     const PlanElement& e = plan_.elements[wall.elements[0]];
-    sink_.Emit(DiagnosticKind::kWallOffSection, e.location,
-               fmt::format("{} is from {:.2f} m to {:.2f} m and nothing closes it above; walls that miss the section at {:.2f} m do not bound rooms",
-                           e.location.ToString(), wall.z_min_m + plan_.origin.z(), wall.z_max_m + plan_.origin.z(),
-                           floor.level.section_z_m + plan_.origin.z()));
+    sink_.Emit(
+        DiagnosticKind::kWallOffSection, e.location,
+        fmt::format(
+            "{} is from {:.2f} m to {:.2f} m and nothing closes it above; walls that miss the section at {:.2f} m do not bound rooms",
+            e.location.ToString(), wall.z_min_m + plan_.origin.z(), wall.z_max_m + plan_.origin.z(),
+            floor.level.section_z_m + plan_.origin.z()));
   }
 
   void AddColumn(uint32_t e) {
@@ -119,8 +125,8 @@ class FootprintCutter {
     return out;
   }
 
-  // The section of a curtain wall may be posts only, its panes being windows and doors: the band that they stand in is the wall. A straight one is
-  // its least rectangle; others get the sections of their sill and head rails on top.
+  // The section of a curtain wall may be posts only, its panes being windows and doors: the band that they stand in is the wall. A straight
+  // one is its least rectangle; others get the sections of their sill and head rails on top.
   void CloseCurtain(const PlanWall& wall, std::vector<Ring>& rings) {
     if (rings.size() < 2) return;
     std::vector<Eigen::Vector2d> points;
@@ -136,11 +142,12 @@ class FootprintCutter {
   void ReportOpen(uint32_t e, double z_m) {
     const PlanElement& element = plan_.elements[e];
     sink_.Emit(DiagnosticKind::kFootprintOpen, element.location,
-               fmt::format("the section of {} at {:.2f} m is no closed outline; the rectangle around it stands in", element.location.ToString(),
-                           z_m + plan_.origin.z()));
+               fmt::format("the section of {} at {:.2f} m is no closed outline; the rectangle around it stands in",
+                           element.location.ToString(), z_m + plan_.origin.z()));
   }
 
-  void Add(Floor& floor, FootprintKind kind, uint32_t wall, const std::vector<uint32_t>& elements, const std::vector<double>& heights_m, bool bounds_rooms) {
+  void Add(Floor& floor, FootprintKind kind, uint32_t wall, const std::vector<uint32_t>& elements, const std::vector<double>& heights_m,
+           bool bounds_rooms) {
     Footprint out{kind, wall, elements[0], bounds_rooms, CutElements(elements, heights_m)};
     if (plan_.elements[elements[0]].kind == ElementKind::kCurtainWall) CloseCurtain(out_.walls[wall], out.rings);
     if (!out.rings.empty()) floor.footprints.push_back(std::move(out));

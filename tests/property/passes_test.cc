@@ -16,9 +16,7 @@
 namespace plumb::compiler {
 namespace {
 
-double Uniform(std::mt19937_64& random, double lo, double hi) {
-  return lo + (hi - lo) * static_cast<double>(random() >> 11) * 0x1p-53;
-}
+double Uniform(std::mt19937_64& random, double lo, double hi) { return lo + (hi - lo) * static_cast<double>(random() >> 11) * 0x1p-53; }
 
 // A random apartment: a grid of rooms behind outer walls, butt joints with gaps up to 1 mm, doors in most inner walls, some columns.
 PlanIr Apartment(uint64_t seed) {
@@ -76,7 +74,8 @@ std::string Describe(const AGraph& graph) {
   std::vector<std::string> lines;
   for (size_t r = 0; r < graph.rooms.size(); ++r) {
     const Room& room = graph.rooms[r];
-    lines.push_back("room " + room_name(RoomId(r)) + " corners " + std::to_string(room.polygon.size()) + " holes " + std::to_string(room.holes.size()));
+    lines.push_back("room " + room_name(RoomId(r)) + " corners " + std::to_string(room.polygon.size()) + " holes " +
+                    std::to_string(room.holes.size()));
   }
   for (const Doorway& d : graph.doorways) {
     std::vector<std::string> sides = {room_name(d.room_a), room_name(d.room_b)};
@@ -84,7 +83,8 @@ std::string Describe(const AGraph& graph) {
     lines.push_back("doorway " + d.guid + " in " + graph.walls[d.wall.index()].guid + ": " + sides[0] + " / " + sides[1]);
   }
   for (const Surface& s : graph.surfaces) {
-    lines.push_back("surface of " + graph.walls[s.wall.index()].guid + " in " + room_name(s.room) + " cm " + std::to_string(std::lround(20 * s.length_m())));
+    lines.push_back("surface of " + graph.walls[s.wall.index()].guid + " in " + room_name(s.room) + " cm " +
+                    std::to_string(std::lround(20 * s.length_m())));
   }
   for (const Wall& w : graph.walls) {
     lines.push_back("wall " + w.guid + " mm " + std::to_string(std::lround(100 * w.thickness_m)) + (w.external ? " external" : ""));
@@ -114,11 +114,15 @@ TEST_P(OnApartments, ARigidMotionChangesCoordinatesOnly) {
     const Eigen::Rotation2Dd rotation(yaw * std::numbers::pi / 180);
     const auto image = [&](const Eigen::Vector2d& p) -> Eigen::Vector2d { return rotation * p + Eigen::Vector2d(1234.567, -89.01); };
     for (const Room& r : original.rooms) {
-      const auto same = [&](const Room& m) { return (m.center.head<2>() - image(r.center.head<2>())).norm() < 0.002 && std::abs(m.area_m2 - r.area_m2) < 0.02; };
+      const auto same = [&](const Room& m) {
+        return (m.center.head<2>() - image(r.center.head<2>())).norm() < 0.002 && std::abs(m.area_m2 - r.area_m2) < 0.02;
+      };
       EXPECT_EQ(std::count_if(moved.rooms.begin(), moved.rooms.end(), same), 1) << yaw;
     }
     for (const Surface& s : original.surfaces) {
-      const auto same = [&](const Surface& m) { return (m.start - image(s.start)).norm() < 0.003 && (m.end - image(s.end)).norm() < 0.003; };
+      const auto same = [&](const Surface& m) {
+        return (m.start - image(s.start)).norm() < 0.003 && (m.end - image(s.end)).norm() < 0.003;
+      };
       EXPECT_EQ(std::count_if(moved.surfaces.begin(), moved.surfaces.end(), same), 1) << yaw;
     }
     for (size_t i = 0; i < original.doorways.size(); ++i) {

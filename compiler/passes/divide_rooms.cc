@@ -16,7 +16,17 @@ struct Outline {
   uint32_t space;
   std::vector<Ring> rings;
   double area_m2;
+  double free_m2;  // without what lies under walls: some are drawn to the middle of the walls
 };
+
+double FreeArea(const std::vector<Ring>& rings, double area_m2, const Floor& floor) {
+  const Eigen::AlignedBox2d box = BoundingBox(rings);
+  std::vector<Ring> walls;
+  for (const Footprint& f : floor.footprints) {
+    if (f.bounds_rooms && box.intersects(BoundingBox(f.rings))) walls.insert(walls.end(), f.rings.begin(), f.rings.end());
+  }
+  return area_m2 - OverlapArea(rings, walls);
+}
 
 // Of the spaces within the face those that do not overlap: smaller ones first, so that zones of several spaces drop out.
 std::vector<Outline> PartsOf(const std::vector<Ring>& face, const std::vector<Outline>& outlines, const DivideOptions& options) {
@@ -24,7 +34,7 @@ std::vector<Outline> PartsOf(const std::vector<Ring>& face, const std::vector<Ou
   const Eigen::AlignedBox2d box = BoundingBox(face);
   for (const Outline& o : outlines) {
     if (o.area_m2 < options.min_area_m2 || !box.intersects(BoundingBox(o.rings))) continue;
-    if (OverlapArea(face, o.rings) >= options.min_inside_share * o.area_m2) inside.push_back(o);
+    if (OverlapArea(face, o.rings) >= options.min_inside_share * o.free_m2) inside.push_back(o);
   }
   std::stable_sort(inside.begin(), inside.end(), [](const Outline& a, const Outline& b) { return a.area_m2 < b.area_m2; });
   std::vector<Outline> out;
@@ -76,8 +86,8 @@ Expected<void> DivideRooms(const PlanIr& plan, const DivideOptions& options, con
   for (uint32_t s = 0; s < plan.spaces.size(); ++s) {
     const size_t f = FloorOfStorey(floors, plan.spaces[s].storey);
     std::vector<Ring> rings = SpaceOutline(plan.spaces[s], floors.floors[f]);
-    const double area = RegionArea(rings);
-    outlines[f].push_back({s, std::move(rings), area});
+    const double area = RegionArea(rings), free = FreeArea(rings, area, floors.floors[f]);
+    outlines[f].push_back({s, std::move(rings), area, free});
   }
   for (size_t f = 0; f < floors.floors.size(); ++f) {
     Floor& floor = floors.floors[f];

@@ -9,7 +9,7 @@
 namespace plumb::compiler {
 
 struct DivideOptions {
-  double min_inside_share = 0.9;   // of a space that lies within the open plan, for the space to divide it
+  double min_inside_share = 0.9;   // of a space's area beside walls that lies within the open plan, for the space to divide it
   double max_overlap_share = 0.1;  // of the smaller of two spaces; a space that overlaps others by more is a zone of several
   double min_area_m2 = 1.0;        // smaller spaces divide nothing
   [[nodiscard]] std::string Check() const;

@@ -18,7 +18,9 @@ class DivideRoomsTest : public testing::Test {
     builder_.plan.spaces.clear();
     builder_.On(0);
   }
-  void Space(const std::string& name, const Eigen::Vector2d& lo, const Eigen::Vector2d& hi) { builder_.Space(name, test::Rectangle(lo, hi)); }
+  void Space(const std::string& name, const Eigen::Vector2d& lo, const Eigen::Vector2d& hi) {
+    builder_.Space(name, test::Rectangle(lo, hi));
+  }
 
   test::PlanBuilder builder_;
 };

@@ -68,6 +68,7 @@ class Validator {
         if (r.valid()) entered[r.index()] = true;
       }
     }
+    for (const OpenBoundary& b : graph_.open_boundaries) entered[b.room_a.index()] = entered[b.room_b.index()] = true;
     for (size_t i = 0; i < graph_.rooms.size(); ++i) {
       const Room& r = graph_.rooms[i];
       CheckClosed(i);

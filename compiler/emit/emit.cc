@@ -93,6 +93,10 @@ void MoveToPlanFrame(const PlanIr& plan, AGraph& graph) {
   for (Room& r : graph.rooms) mover.Move(r);
   for (Doorway& d : graph.doorways) mover.Move(d.position);
   for (Window& w : graph.windows) mover.Move(w.position);
+  for (OpenBoundary& b : graph.open_boundaries) {
+    mover.Move(b.start);
+    mover.Move(b.end);
+  }
   for (Column& c : graph.columns) {
     mover.Move(c.outline);
     mover.MoveHeights(c.z_min_m, c.z_max_m);

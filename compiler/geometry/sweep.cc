@@ -142,7 +142,7 @@ Solid SweepDisk(const std::vector<Vector3d>& path, double radius_m, int sides) {
   if (n < 2 || sides < 3 || !(radius_m > 0)) return {};
   const auto direction = [&](int i) { return (points[static_cast<size_t>((i + 1) % n)] - points[static_cast<size_t>(i)]).normalized(); };
   Solid solid;
-  Vector3d u = direction(0).unitOrthogonal();
+  Vector3d u = direction(closed ? n - 1 : 0).unitOrthogonal();
   for (int i = 0; i < n; ++i) {
     const Vector3d in = i > 0 || closed ? direction((i + n - 1) % n) : direction(0);
     const Vector3d out = i + 1 < n || closed ? direction(i) : in;

@@ -34,20 +34,26 @@ struct Footprint {
   FootprintKind kind = FootprintKind::kWall;
   uint32_t wall = kNoIndex;     // in FloorIr::walls; none for columns
   uint32_t element = kNoIndex;  // in PlanIr::elements (of a wall: its first)
-  double cut_z_m = 0;           // height of the cut: the section height, or the solid's own middle where it does not reach that
   bool bounds_rooms = true;     // part of the planar map. False for what a person sees or walks over or under: parapets, hanging walls
   std::vector<Ring> rings;      // closed; outer ones counter-clockwise, holes clockwise; may overlap each other (winding number != 0 is inside)
+};
+
+// The outline of a space that shares an open plan with others: where no wall divides them, this does.
+struct Divider {
+  uint32_t space = kNoIndex;  // in PlanIr::spaces
+  std::vector<Ring> rings;    // as Footprint::rings
 };
 
 // One edge of a face's boundary, the face on its left.
 struct BoundaryEdge {
   uint32_t from = 0, to = 0;         // vertices
   uint32_t face = kNoIndex;          // the face on the other side
-  std::vector<uint32_t> footprints;  // whose outline runs here, ascending
+  std::vector<uint32_t> footprints;  // whose outline runs here, ascending; none: two spaces of an open plan meet
 };
 
 struct FloorFace {
   std::vector<uint32_t> cover;                    // footprints over it, ascending; none: free space
+  uint32_t space = kNoIndex;                      // of a divided open plan: the space that this part belongs to
   std::vector<BoundaryEdge> outer;                // counter-clockwise; empty for the unbounded face
   std::vector<std::vector<BoundaryEdge>> holes;   // clockwise
   double area_m2 = 0;                             // holes taken off; 0 for the unbounded face
@@ -56,7 +62,9 @@ struct FloorFace {
 
 struct Floor {
   Level level;
+  std::vector<double> cut_heights_m;  // where the walls are cut, ascending: the section height, and lower where knee walls bound rooms
   std::vector<Footprint> footprints;
+  std::vector<Divider> dividers;
   std::vector<Eigen::Vector2d> vertices;
   std::vector<FloorFace> faces;  // the unbounded one first
 };

@@ -65,7 +65,7 @@ void VerifyBoundary(Faults& faults, const Floor& floor, size_t face, const std::
     faults.Require(edge.from != edge.to, "face {}: an edge has no length", face);
     faults.Require(edge.to == ring[(k + 1) % ring.size()].from, "face {}: its boundary is not closed", face);
     faults.Require(edge.face < floor.faces.size(), "face {}: neighbour {} of {}", face, edge.face, floor.faces.size());
-    faults.Require(!edge.footprints.empty(), "face {}: an edge belongs to no footprint", face);
+    faults.Require(!edge.footprints.empty() || !floor.dividers.empty(), "face {}: an edge belongs to no footprint", face);
     for (uint32_t f : edge.footprints) faults.Require(f < floor.footprints.size(), "face {}: footprint {} of {}", face, f, floor.footprints.size());
   }
 }
@@ -81,6 +81,10 @@ void VerifyFloor(Faults& faults, const FloorIr& ir, const PlanIr& plan, const Fl
     faults.Require(InRangeOrNone(f.wall, ir.walls.size()), "footprint {}: wall {} of {}", i, f.wall, ir.walls.size());
     for (const Ring& ring : f.rings) faults.Require(ring.size() >= 3, "footprint {}: a ring has {} points", i, ring.size());
   }
+  for (size_t i = 0; i < floor.dividers.size(); ++i) {
+    faults.Require(floor.dividers[i].space < plan.spaces.size(), "divider {}: space {} of {}", i, floor.dividers[i].space, plan.spaces.size());
+  }
+  faults.Require(!floor.cut_heights_m.empty() && std::is_sorted(floor.cut_heights_m.begin(), floor.cut_heights_m.end()), "the heights of the cuts are not sorted");
   for (const auto& v : floor.vertices) faults.Require(v.allFinite(), "a vertex of the map is not finite");
   faults.Require(!floor.faces.empty(), "the map has no faces");
   for (size_t i = 0; i < floor.faces.size(); ++i) {

@@ -81,7 +81,7 @@ void AddElements(const PlanIr& plan, const FloorIr& floors, const OpeningElement
 
 std::string PassOptions::Check() const {
   if (!(section_height_m > 0 && section_height_m < 10)) return fmt::format("PassOptions.section_height_m = {}; must be in (0, 10)", section_height_m);
-  for (const std::string& fault : {storeys.Check(), footprints.Check(), planar_map.Check(), rooms.Check(), naming.Check(), surfaces.Check(),
+  for (const std::string& fault : {storeys.Check(), footprints.Check(), planar_map.Check(), division.Check(), rooms.Check(), naming.Check(), surfaces.Check(),
                                    hosting.Check(), doorways.Check()}) {
     if (!fault.empty()) return fault;
   }
@@ -97,6 +97,10 @@ std::optional<FloorIr> BuildFloors(PlanIr& plan, const PassOptions& options, Dia
       sink.Emit(DiagnosticKind::kInternalError, {}, ok.error().message);
       return std::nullopt;
     }
+  }
+  if (const Expected<void> ok = DivideRooms(plan, options.division, options.planar_map, floors, sink); !ok) {
+    sink.Emit(DiagnosticKind::kInternalError, {}, ok.error().message);
+    return std::nullopt;
   }
   if (options.verify && !Passes(VerifyFloorIr(floors, plan), "FloorIr", sink)) return std::nullopt;
   return floors;
@@ -115,6 +119,7 @@ std::optional<Built> BuildAGraph(PlanIr& plan, const PassOptions& options, Diagn
   AddSurfaces(plan, out.floors, rooms, options.surfaces, graph);
   const std::vector<HostedOpening> hosted = HostOpenings(plan, out.floors, options.hosting, graph, sink);
   const OpeningElements openings = AddDoorwaysAndWindows(plan, out.floors, rooms, hosted, options.doorways, graph, sink);
+  AddOpenBoundaries(out.floors, rooms, graph);
   AddColumns(plan, out.floors, graph);
   AddElements(plan, out.floors, openings, graph);
   AddFactors(graph);

@@ -6,6 +6,7 @@
 #include "compiler/diagnostics/diagnostic.h"
 #include "compiler/ir/floor_ir.h"
 #include "compiler/passes/assign_storeys.h"
+#include "compiler/passes/divide_rooms.h"
 #include "compiler/passes/doorways.h"
 #include "compiler/passes/host_openings.h"
 #include "compiler/passes/name_rooms.h"
@@ -22,6 +23,7 @@ struct PassOptions {
   StoreyOptions storeys;
   FootprintOptions footprints;
   PlanarMapOptions planar_map;
+  DivideOptions division;
   RoomOptions rooms;
   NamingOptions naming;
   SurfaceOptions surfaces;

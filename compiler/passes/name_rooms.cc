@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "compiler/passes/divide_rooms.h"
 #include "compiler/passes/polygon.h"
-#include "compiler/passes/section.h"
 
 namespace plumb::compiler {
 namespace {
@@ -17,7 +17,7 @@ struct Pairing {
   size_t room, space;
 };
 
-struct SpaceOutline {
+struct OutlineOnFloor {
   std::vector<Ring> rings;
   double area_m2 = 0;
   size_t floor = 0;
@@ -32,13 +32,6 @@ std::vector<Ring> RingsOf(const Room& room) {
 std::string Label(const PlanSpace& space) {
   if (space.long_name.empty() || space.long_name == space.name) return space.name;
   return space.name.empty() ? space.long_name : space.name + " " + space.long_name;
-}
-
-size_t FloorOf(const FloorIr& floors, uint32_t storey) {
-  for (size_t f = 0; f < floors.floors.size(); ++f) {
-    if (storey <= floors.floors[f].level.last_storey) return f;
-  }
-  return floors.floors.size() - 1;
 }
 
 class Namer {
@@ -57,14 +50,10 @@ class Namer {
   }
 
  private:
-  SpaceOutline OutlineOf(const PlanSpace& space) const {
-    SpaceOutline out;
-    out.floor = FloorOf(floors_, space.storey);
-    const Eigen::AlignedBox3d box = Bounds(space.body);
-    if (space.body.empty()) return out;
-    const double section_z = floors_.floors[out.floor].level.section_z_m;
-    const bool reaches = box.min().z() < section_z && section_z <= box.max().z();
-    out.rings = CutSolid(space.body, reaches ? section_z : box.center().z()).rings;
+  OutlineOnFloor OutlineOf(const PlanSpace& space) const {
+    OutlineOnFloor out;
+    out.floor = FloorOfStorey(floors_, space.storey);
+    out.rings = SpaceOutline(space, floors_.floors[out.floor]);
     out.area_m2 = RegionArea(out.rings);
     return out;
   }
@@ -74,8 +63,8 @@ class Namer {
       const std::vector<Ring> rings = RingsOf(graph_.rooms[r]);
       const Eigen::AlignedBox2d box = BoundingBox(rings);
       for (size_t s = 0; s < outlines_.size(); ++s) {
-        const SpaceOutline& outline = outlines_[s];
-        if (outline.floor != FloorOf(floors_, graph_.rooms[r].storey.value) || !box.intersects(BoundingBox(outline.rings))) continue;
+        const OutlineOnFloor& outline = outlines_[s];
+        if (outline.floor != FloorOfStorey(floors_, graph_.rooms[r].storey.value) || !box.intersects(BoundingBox(outline.rings))) continue;
         const double overlap = OverlapArea(rings, outline.rings), both = graph_.rooms[r].area_m2 + outline.area_m2 - overlap;
         if (overlap > 0 && both > 0) pairs_.push_back({overlap, overlap / both, r, s});
       }
@@ -139,7 +128,7 @@ class Namer {
   const NamingOptions& options_;
   AGraph& graph_;
   DiagnosticSink& sink_;
-  std::vector<SpaceOutline> outlines_;
+  std::vector<OutlineOnFloor> outlines_;
   std::vector<Pairing> pairs_;
   std::vector<uint32_t> space_of_room_, room_of_space_;
 };

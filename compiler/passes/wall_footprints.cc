@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "compiler/passes/polygon.h"
 #include "compiler/passes/section.h"
@@ -12,6 +13,8 @@
 
 namespace plumb::compiler {
 namespace {
+
+constexpr double kSameHeight_m = 0.01;
 
 const Solid& SectionSolid(const PlanElement& e) { return e.uncut.empty() ? e.body : e.uncut; }
 
@@ -37,7 +40,13 @@ class FootprintCutter {
 
   FloorIr Run() {
     out_.walls = CollectWalls(plan_, sink_);
-    for (const Level& level : levels_) out_.floors.push_back({level, {}, {}, {}});
+    for (const Level& level : levels_) {
+      out_.floors.emplace_back();
+      out_.floors.back().level = level;
+      out_.floors.back().cut_heights_m = {level.section_z_m};
+    }
+    for (uint32_t w = 0; w < out_.walls.size(); ++w) ClassifyWall(w);
+    for (Floor& floor : out_.floors) std::sort(floor.cut_heights_m.begin(), floor.cut_heights_m.end());
     for (uint32_t w = 0; w < out_.walls.size(); ++w) AddWall(w);
     for (uint32_t e = 0; e < plan_.elements.size(); ++e) {
       if (plan_.elements[e].kind == ElementKind::kColumn) AddColumn(e);
@@ -47,23 +56,37 @@ class FootprintCutter {
 
  private:
   static bool Crosses(const PlanWall& wall, double z_m) { return wall.z_min_m < z_m && wall.z_max_m >= z_m; }
+  static double Middle(const PlanWall& wall) { return 0.5 * (wall.z_min_m + wall.z_max_m); }
+
+  bool CrossesSection(const PlanWall& wall) const {
+    return std::any_of(levels_.begin(), levels_.end(), [&](const Level& level) { return Crosses(wall, level.section_z_m); });
+  }
+
+  // Tells knee walls from parapets among the walls that cross no section, and has their level cut at their height too.
+  void ClassifyWall(uint32_t index) {
+    const PlanWall& wall = out_.walls[index];
+    knee_wall_.push_back(false);
+    if (CrossesSection(wall)) return;
+    Floor& floor = FloorOf(wall.storey);
+    const bool low = wall.z_max_m < floor.level.section_z_m;
+    knee_wall_.back() = low && ClosedAbove(CutElements(wall.elements, {Middle(wall)}), wall.z_max_m);
+    if (!knee_wall_.back()) return;
+    const auto near = [&](double z) { return std::abs(z - Middle(wall)) < kSameHeight_m; };
+    if (std::none_of(floor.cut_heights_m.begin(), floor.cut_heights_m.end(), near)) floor.cut_heights_m.push_back(Middle(wall));
+  }
 
   void AddWall(uint32_t index) {
     const PlanWall& wall = out_.walls[index];
-    bool crosses_any = false;
-    for (Floor& floor : out_.floors) {
-      if (!Crosses(wall, floor.level.section_z_m)) continue;
-      crosses_any |= Add(floor, FootprintKind::kWall, index, wall.elements, floor.level.section_z_m, true);
+    if (CrossesSection(wall) || knee_wall_[index]) {
+      for (Floor& floor : out_.floors) {
+        const bool here = knee_wall_[index] ? &floor == &FloorOf(wall.storey) : Crosses(wall, floor.level.section_z_m);
+        if (here) Add(floor, FootprintKind::kWall, index, wall.elements, floor.cut_heights_m, true);
+      }
+      return;
     }
-    if (crosses_any) return;
     Floor& floor = FloorOf(wall.storey);
-    const double middle = 0.5 * (wall.z_min_m + wall.z_max_m);
-    const bool low = wall.z_max_m < floor.level.section_z_m;
-    if (!Add(floor, FootprintKind::kWall, index, wall.elements, middle, false)) return;
-    Footprint& footprint = floor.footprints.back();
-    footprint.bounds_rooms = low && ClosedAbove(footprint, wall.z_max_m);
-    if (footprint.bounds_rooms) return;
-    const PlanElement& e = plan_.elements[footprint.element];
+    Add(floor, FootprintKind::kWall, index, wall.elements, {Middle(wall)}, false);
+    const PlanElement& e = plan_.elements[wall.elements[0]];
     sink_.Emit(DiagnosticKind::kWallOffSection, e.location,
                fmt::format("{} is from {:.2f} m to {:.2f} m and nothing closes it above; walls that miss the section at {:.2f} m do not bound rooms",
                            e.location.ToString(), wall.z_min_m + plan_.origin.z(), wall.z_max_m + plan_.origin.z(),
@@ -75,33 +98,36 @@ class FootprintCutter {
     if (box.isEmpty()) return;
     for (Floor& floor : out_.floors) {
       const double z = floor.level.section_z_m;
-      if (box.min().z() < z && box.max().z() >= z) Add(floor, FootprintKind::kColumn, kNoIndex, {e}, z, true);
+      if (box.min().z() < z && box.max().z() >= z) Add(floor, FootprintKind::kColumn, kNoIndex, {e}, {z}, true);
     }
   }
 
-  // False if nothing is there at that height.
-  bool Add(Floor& floor, FootprintKind kind, uint32_t wall, const std::vector<uint32_t>& elements, double z_m, bool bounds_rooms) {
-    Footprint out;
-    out.kind = kind;
-    out.wall = wall;
-    out.element = elements[0];
-    out.cut_z_m = z_m;
-    out.bounds_rooms = bounds_rooms;
+  std::vector<Ring> CutElements(const std::vector<uint32_t>& elements, const std::vector<double>& heights_m) {
+    std::vector<Ring> out;
     for (uint32_t e : elements) {
-      const Section section = CutSolid(SectionSolid(plan_.elements[e]), z_m);
-      if (!section.closed) {
-        const PlanElement& element = plan_.elements[e];
-        sink_.Emit(DiagnosticKind::kFootprintOpen, element.location,
-                   fmt::format("the section of {} at {:.2f} m is no closed outline; the rectangle around it stands in", element.location.ToString(),
-                               z_m + plan_.origin.z()));
-      }
-      for (const Ring& ring : section.rings) {
-        if (Ring rounded = Rounded(ring, options_.grid_m); !rounded.empty()) out.rings.push_back(std::move(rounded));
+      for (double z_m : heights_m) {
+        const Section section = CutSolid(SectionSolid(plan_.elements[e]), z_m);
+        if (!section.closed && open_.insert(e).second) ReportOpen(e, z_m);
+        for (const Ring& ring : section.rings) {
+          Ring rounded = Rounded(ring, options_.grid_m);
+          // Upright walls give the same ring at every height.
+          if (!rounded.empty() && std::find(out.begin(), out.end(), rounded) == out.end()) out.push_back(std::move(rounded));
+        }
       }
     }
-    if (out.rings.empty()) return false;
-    floor.footprints.push_back(std::move(out));
-    return true;
+    return out;
+  }
+
+  void ReportOpen(uint32_t e, double z_m) {
+    const PlanElement& element = plan_.elements[e];
+    sink_.Emit(DiagnosticKind::kFootprintOpen, element.location,
+               fmt::format("the section of {} at {:.2f} m is no closed outline; the rectangle around it stands in", element.location.ToString(),
+                           z_m + plan_.origin.z()));
+  }
+
+  void Add(Floor& floor, FootprintKind kind, uint32_t wall, const std::vector<uint32_t>& elements, const std::vector<double>& heights_m, bool bounds_rooms) {
+    Footprint out{kind, wall, elements[0], bounds_rooms, CutElements(elements, heights_m)};
+    if (!out.rings.empty()) floor.footprints.push_back(std::move(out));
   }
 
   Floor& FloorOf(uint32_t storey) {
@@ -111,10 +137,10 @@ class FootprintCutter {
     return out_.floors.back();
   }
 
-  // Whether roofs or slabs begin right above most of the footprint's outline.
-  bool ClosedAbove(const Footprint& footprint, double top_z_m) const {
+  // Whether roofs or slabs begin right above most of the outline.
+  bool ClosedAbove(const std::vector<Ring>& rings, double top_z_m) const {
     size_t closed = 0, probes = 0;
-    for (const Ring& ring : footprint.rings) {
+    for (const Ring& ring : rings) {
       for (size_t i = 0; i < ring.size(); ++i) {
         const Eigen::Vector2d p = 0.5 * (ring[i] + ring[(i + 1) % ring.size()]);
         const std::optional<double> above = covers_.Above(p, top_z_m - options_.closed_above_gap_m);
@@ -131,6 +157,8 @@ class FootprintCutter {
   DiagnosticSink& sink_;
   VerticalProbe covers_;
   FloorIr out_;
+  std::vector<bool> knee_wall_;  // per wall
+  std::set<uint32_t> open_;      // elements whose sections were reported
 };
 
 }  // namespace

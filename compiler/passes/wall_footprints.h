@@ -18,7 +18,8 @@ struct FootprintOptions {
 
 // Sections of walls and columns on every level; the planar maps stay empty (planar_map.h). A solid is in the map of each level whose section
 // plane it crosses. A wall that crosses none is cut at its own middle on the level of its storey, and bounds rooms only if it is closed
-// above (a knee wall under a roof): parapets, balustrades and walls that hang from the ceiling do not.
+// above (a knee wall under a roof): parapets, balustrades and walls that hang from the ceiling do not. On a level with knee walls
+// every footprint is the union of the sections at the section height and at the knee walls' middles, since a roof may narrow walls further up.
 [[nodiscard]] FloorIr CutFootprints(const PlanIr& plan, const std::vector<Level>& levels, const FootprintOptions& options, DiagnosticSink& sink);
 
 }  // namespace plumb::compiler

@@ -4,15 +4,15 @@
 #include <cmath>
 #include <limits>
 
+#include "runtime/mapping/cell_planes.h"
 #include "runtime/mapping/plane_fit.h"
-#include "runtime/mapping/segmentation.h"
 
 namespace plumb::runtime {
 namespace {
 
 constexpr double kSameFacingCos = 0.8;
-constexpr double kMinCoverage = 0.4;
-constexpr double kAdjoiningFactor = 0.5;   // of merge_distance_m
+// Two views of one surface may differ in direction by this much at the shorter one's ends, and by odometry's drift.
+constexpr double kEndOffset_m = 0.03, kMinAngle_rad = 0.02;
 constexpr double kEdge_m = 0.5 * kCell_m;  // a cell's mean point lies inside the surface's edge by about this
 
 // Angle between the normals; for walls of their horizontal parts, since low segments know little of their tilt.
@@ -86,7 +86,9 @@ TrackedSurface SurfaceOf(const Segment& segment, const Keyframe& keyframe) {
 double SurfaceDistance(const SurfacePatch& a, const SurfacePatch& b, const MapperOptions& options) {
   constexpr double kApart = std::numeric_limits<double>::infinity();
   if (a.kind() != b.kind() || a.plane().n.dot(b.plane().n) < kSameFacingCos) return kApart;
-  if (NormalAngle(a.plane(), b.plane(), a.kind()) > options.merge_angle_rad) return kApart;
+  const double shorter_m = std::min(a.hi().x() - a.lo().x(), b.hi().x() - b.lo().x());
+  const double max_angle_rad = std::clamp(kEndOffset_m / shorter_m, kMinAngle_rad, std::max(kMinAngle_rad, options.merge_angle_rad));
+  if (NormalAngle(a.plane(), b.plane(), a.kind()) > max_angle_rad) return kApart;
   const Bounds other = BoundsIn(a, b);
   const Eigen::Vector2d from = a.lo().cwiseMax(other.lo), to = a.hi().cwiseMin(other.hi);
   const Eigen::Vector2d overlap_m = to - from;
@@ -99,11 +101,7 @@ double SurfaceDistance(const SurfacePatch& a, const SurfacePatch& b, const Mappe
     sum_m += offset_m;
     worst_m = std::max(worst_m, offset_m);
   }
-  if (worst_m > options.merge_distance_m) return kApart;
-  if (worst_m <= kAdjoiningFactor * options.merge_distance_m) return 0.5 * sum_m;
-  // Offset by more than a surface's unevenness: the same one only if seen at the same places, as after drift; else next to it, like a door leaf.
-  const bool same_places = std::max(a.Coverage(b), b.Coverage(a)) >= kMinCoverage;
-  return same_places ? 0.5 * sum_m : kApart;
+  return worst_m <= options.merge_distance_m ? 0.5 * sum_m : kApart;
 }
 
 void Absorb(const TrackedSurface& b, const std::vector<Keyframe>& keyframes, MapSurface* a, SurfaceTrack* a_track) {

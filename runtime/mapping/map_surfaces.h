@@ -24,7 +24,7 @@ struct TrackedSurface {
 [[nodiscard]] TrackedSurface SurfaceOf(const Segment& segment, const Keyframe& keyframe);
 
 // How far apart two surfaces are, at the ends of their overlap; infinity if they are not the same: other kind or facing, other direction, offset
-// too large, or a gap between them. Where they only adjoin, less offset is allowed than where they overlap: a step between two walls is no noise.
+// too large, or a gap between them.
 // Offsets are taken on the surfaces, never at the frame's origin, where an error in direction would pass for one in offset.
 [[nodiscard]] double SurfaceDistance(const SurfacePatch& a, const SurfacePatch& b, const MapperOptions& options);
 

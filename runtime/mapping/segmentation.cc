@@ -2,13 +2,12 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <optional>
 
-#include "runtime/mapping/plane_fit.h"
+#include "runtime/mapping/cell_planes.h"
 #include "runtime/odometry/voxel_index.h"
 
 namespace plumb::runtime {
@@ -16,22 +15,15 @@ namespace {
 
 constexpr double kSin15 = 0.25881904510252074, kCos15 = 0.9659258262890683;
 constexpr double kMaxStep_m = 0.012;        // between a surfel and its region's plane, beyond their uncertainties, ...
-constexpr double kMaxBend_rad = 0.05;       // ... and between their normals
-constexpr double kMaxUnevenness_m = 0.005;  // of a plane's surfels
-constexpr double kPartRadius_m = 0.8, kPlaneBand_m = 0.01;
-constexpr int kGrowRounds = 3;              // what uneven regions set free grows again
+constexpr double kMaxBend_rad = 0.03;       // ... and between their normals
+constexpr double kRefitGrowth = 1.1;
 constexpr double kMaxRmsSigmas = 1.5;       // of a region
 constexpr double kBandSigmas = 3.0;         // between a point and its segment's plane
 constexpr int kReach = 2;                   // voxels from a segment's surfels to points that may be its
 constexpr double kMinCosIncidence = 0.15;   // flatter rays are biased by the beam's width
 constexpr double kMinSigma_m = 0.01;
-constexpr double kMinAcross_m = 0.2;        // height of a wall segment
 constexpr size_t kExplainStep = 3;          // every third point is enough to tell which planes are needed
 constexpr double kExplainSigmas = 2.0, kMinUnexplained = 0.5;
-constexpr std::array<double, 3> kCellOff_m = {0.02, 0.015, 0.01};  // of a cell's mean from the plane, beyond its noise; by round
-constexpr double kMinCellPoints = 2;
-constexpr double kMinCellShare = 0.25;      // of the median cell's points: less is noise beyond an edge
-constexpr double kRefitGrowth = 1.1;
 
 // Surfels of one plane; `plane` is a surfel as large as the region.
 struct Region {
@@ -84,48 +76,6 @@ Region GrowRegion(const SurfelMap& map, uint32_t seed, std::vector<bool>* taken)
   return region;
 }
 
-// Mean square distance of the members' means to the region's plane: what is left when their points' noise has averaged out.
-double Unevenness(const Region& region, const SurfelMap& map) {
-  double sum_m2 = 0;
-  for (const uint32_t i : region.members) {
-    const Surfel& s = map.surfels()[i];
-    const double distance_m = region.plane.SignedDistance(s.mean);
-    sum_m2 += s.count * distance_m * distance_m;
-  }
-  return std::sqrt(sum_m2 / region.plane.count);
-}
-
-// A region of the members that pass.
-template <class Keep>
-Region Part(const Region& region, const SurfelMap& map, const Keep& keep) {
-  Region part;
-  part.plane.fitted_count = std::numeric_limits<double>::infinity();  // fitted once, below
-  for (const uint32_t i : region.members) {
-    if (keep(map.surfels()[i])) part.Add(map.surfels()[i], i);
-  }
-  if (!part.members.empty()) part.Fit();
-  return part;
-}
-
-// A wall and a door leaf a few centimetres behind it can grow into one region whose plane leans between them. Of an uneven region only the
-// largest plane that some part of it spans is kept; the other surfels are free again.
-void KeepLargestPlane(const SurfelMap& map, Region* region, std::vector<bool>* taken) {
-  if (Unevenness(*region, map) <= kMaxUnevenness_m) return;
-  Region best;
-  for (const uint32_t center : region->members) {
-    const Eigen::Vector3d at = map.surfels()[center].mean;
-    Region part = Part(*region, map, [&](const Surfel& s) { return (s.mean - at).norm() < kPartRadius_m; });
-    for (int round = 0; round < 3; ++round) {
-      part = Part(*region, map, [&](const Surfel& s) { return std::abs(part.plane.SignedDistance(s.mean)) < kPlaneBand_m; });
-    }
-    if (part.plane.count > best.plane.count) best = std::move(part);
-  }
-  if (best.members.empty()) return;
-  for (const uint32_t i : region->members) (*taken)[i] = false;
-  for (const uint32_t i : best.members) (*taken)[i] = true;
-  *region = std::move(best);
-}
-
 std::vector<Region> GrowRegions(const SurfelMap& map) {
   const std::vector<Surfel>& surfels = map.surfels();
   std::vector<uint32_t> seeds;
@@ -135,12 +85,8 @@ std::vector<Region> GrowRegions(const SurfelMap& map) {
   std::stable_sort(seeds.begin(), seeds.end(), [&](uint32_t a, uint32_t b) { return surfels[a].count > surfels[b].count; });
   std::vector<bool> taken(surfels.size(), false);
   std::vector<Region> regions;
-  for (int round = 0; round < kGrowRounds; ++round) {
-    for (const uint32_t seed : seeds) {
-      if (taken[seed]) continue;
-      regions.push_back(GrowRegion(map, seed, &taken));
-      KeepLargestPlane(map, &regions.back(), &taken);
-    }
+  for (const uint32_t seed : seeds) {
+    if (!taken[seed]) regions.push_back(GrowRegion(map, seed, &taken));
   }
   std::stable_sort(regions.begin(), regions.end(), [](const Region& a, const Region& b) { return a.plane.count > b.plane.count; });
   return regions;
@@ -153,10 +99,11 @@ std::optional<SurfaceKind> KindOf(const Eigen::Vector3d& normal, const Eigen::Ve
   return std::nullopt;
 }
 
-// A segment while points are given to it.
+// A region's plane while points are given to it.
 struct Candidate {
-  Segment segment;
   const Region* region = nullptr;
+  SurfaceKind kind = SurfaceKind::kWall;
+  Plane plane;
   PlaneAxes axes;
   double sigma_m = 0;
   bool stays = true;
@@ -179,9 +126,9 @@ std::vector<Candidate> MakeCandidates(const std::vector<Region>& regions, const 
     if (!kind || rms_m > kMaxRmsSigmas * options.plane_sigma_m) continue;
     Candidate c;
     c.region = &region;
-    c.segment.kind = *kind;
-    c.segment.plane = {region.plane.normal, -region.plane.normal.dot(region.plane.mean)};
-    c.axes = AxesOf(c.segment.plane, *kind, up);
+    c.kind = *kind;
+    c.plane = {region.plane.normal, -region.plane.normal.dot(region.plane.mean)};
+    c.axes = AxesOf(c.plane, *kind, up);
     c.sigma_m = std::clamp(rms_m, kMinSigma_m, options.plane_sigma_m);
     candidates.push_back(std::move(c));
   }
@@ -234,7 +181,7 @@ void FindMatches(const Eigen::Vector3d& p, const Eigen::Vector3d& sensor, const 
   const Eigen::Vector3d ray = sensor - p;
   for (const uint32_t i : *near) {
     const Candidate& c = candidates[i];
-    const double distance_m = std::abs(c.segment.plane.SignedDistance(p)), toward_m = c.segment.plane.n.dot(ray);
+    const double distance_m = std::abs(c.plane.SignedDistance(p)), toward_m = c.plane.n.dot(ray);
     if (distance_m <= band_sigmas * c.sigma_m && toward_m > 0) matches->push_back({i, distance_m, toward_m >= kMinCosIncidence * ray.norm()});
   }
 }
@@ -273,66 +220,7 @@ void AssignPoints(const View& view, const Reach& reach, std::vector<Candidate>* 
   }
 }
 
-double MinCellCount(const std::vector<PlaneStats>& cells) {
-  std::vector<double> counts;
-  counts.reserve(cells.size());
-  for (const PlaneStats& cell : cells) counts.push_back(cell.count());
-  const auto middle = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2);
-  std::nth_element(counts.begin(), middle, counts.end());
-  return std::max(kMinCellPoints, kMinCellShare * *middle);
-}
-
-// Fits the plane to the cells that lie on it and drops the others. A single point tells no door leaf from the wall 5 cm before it, a cell's mean does.
-void FitToCells(Candidate* c) {
-  for (const double off_m : kCellOff_m) {
-    PlaneStats stats;
-    for (const PlaneStats& cell : c->cells) {
-      const double limit_m = off_m + kBandSigmas * c->sigma_m / std::sqrt(cell.count());
-      if (std::abs(c->segment.plane.SignedDistance(cell.centroid())) <= limit_m) stats.Add(cell);
-    }
-    if (stats.count() < 3) return;
-    c->segment.stats = stats;
-    c->segment.plane = FitPlane(stats, c->segment.plane.n).plane;
-  }
-}
-
-// The finished segment, or none if it is too small.
-std::optional<Segment> Finish(Candidate& c, const MapperOptions& options) {
-  if (c.cells.empty()) return std::nullopt;
-  FitToCells(&c);
-  if (c.segment.stats.count() < options.min_segment_points) return std::nullopt;
-  Eigen::Vector2d lo = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity()), hi = -lo;
-  const double min_count = MinCellCount(c.cells);
-  for (const PlaneStats& cell : c.cells) {
-    const Eigen::Vector3d mean = cell.centroid();
-    const double limit_m = kCellOff_m.back() + kBandSigmas * c.sigma_m / std::sqrt(cell.count());
-    if (cell.count() < min_count || std::abs(c.segment.plane.SignedDistance(mean)) > limit_m) continue;
-    const Eigen::Vector2d at(c.axes.along.dot(mean), c.axes.across.dot(mean));
-    lo = lo.cwiseMin(at);
-    hi = hi.cwiseMax(at);
-    c.segment.cells.push_back(mean.cast<float>());
-  }
-  const double area_m2 = kCell_m * kCell_m * static_cast<double>(c.segment.cells.size());
-  if (c.segment.cells.empty() || area_m2 < options.min_segment_extent_m * options.min_segment_extent_m) return std::nullopt;
-  const Eigen::Vector2d size_m = hi - lo + Eigen::Vector2d::Constant(kCell_m);
-  const double min_across_m = c.segment.kind == SurfaceKind::kWall ? std::min(kMinAcross_m, options.min_segment_extent_m) : options.min_segment_extent_m;
-  if (size_m.x() < options.min_segment_extent_m || size_m.y() < min_across_m) return std::nullopt;
-  return std::move(c.segment);
-}
-
 }  // namespace
-
-PlaneAxes AxesOf(const Plane& plane, SurfaceKind kind, const Eigen::Vector3d& up) {
-  PlaneAxes axes;
-  if (kind == SurfaceKind::kWall) {
-    axes.along = plane.n.cross(up).normalized();
-    axes.across = axes.along.cross(plane.n);
-    return axes;
-  }
-  axes.along = (Eigen::Vector3d::UnitX() - plane.n.x() * plane.n).normalized();
-  axes.across = plane.n.cross(axes.along);
-  return axes;
-}
 
 std::vector<Segment> ExtractSegments(const KeyframeWindow& window, const MapperOptions& options) {
   const Eigen::Vector3d up = window.T_odom_kf().linear().transpose() * Eigen::Vector3d::UnitZ();
@@ -342,8 +230,8 @@ std::vector<Segment> ExtractSegments(const KeyframeWindow& window, const MapperO
   KeepUnexplained(window, reach, &candidates);
   for (const View& view : window.views()) AssignPoints(view, reach, &candidates);
   std::vector<Segment> segments;
-  for (Candidate& c : candidates) {
-    if (std::optional<Segment> segment = Finish(c, options)) segments.push_back(std::move(*segment));
+  for (const Candidate& c : candidates) {
+    for (Segment& segment : SplitCells(c.cells, c.kind, c.plane.n, c.axes, c.sigma_m, options)) segments.push_back(std::move(segment));
   }
   return segments;
 }

@@ -3,14 +3,9 @@
 #include <cmath>
 #include <limits>
 
-#include "runtime/mapping/segmentation.h"
+#include "runtime/mapping/cell_planes.h"
 
 namespace plumb::runtime {
-namespace {
-
-uint64_t CellKey(const Eigen::Vector2d& at) { return VoxelKey({at.x() / kCell_m, at.y() / kCell_m, 0}); }
-
-}  // namespace
 
 SurfacePatch::SurfacePatch(uint32_t keyframe, const Eigen::Isometry3d& T_map_kf, const Plane& plane, SurfaceKind kind, const Eigen::Vector3d& at)
     : keyframe_(keyframe), kind_(kind) {
@@ -37,7 +32,7 @@ void SurfacePatch::Mark(const Eigen::Vector3d& p) {
   const Eigen::Vector2d at = Coordinates(p);
   lo_ = lo_.cwiseMin(at);
   hi_ = hi_.cwiseMax(at);
-  if (index_.Insert(CellKey(at)).second) cells_.push_back(at.cast<float>());
+  if (index_.Insert(VoxelKey({at.x() / kCell_m, at.y() / kCell_m, 0})).second) cells_.push_back(at.cast<float>());
 }
 
 std::vector<Eigen::Vector3d> SurfacePatch::CellPoints() const {
@@ -45,20 +40,6 @@ std::vector<Eigen::Vector3d> SurfacePatch::CellPoints() const {
   points.reserve(cells_.size());
   for (const Eigen::Vector2f& at : cells_) points.push_back(Point(at.cast<double>()));
   return points;
-}
-
-double SurfacePatch::Coverage(const SurfacePatch& b) const {
-  if (b.cells_.empty()) return 0;
-  size_t covered = 0;
-  for (const Eigen::Vector3d& p : b.CellPoints()) {
-    const Eigen::Vector2d at = Coordinates(p);
-    bool found = false;
-    for (int k = 0; k < 9 && !found; ++k) {
-      found = index_.Find(CellKey(at + kCell_m * Eigen::Vector2d(k % 3 - 1, k / 3 - 1))) != VoxelIndex::kNone;
-    }
-    covered += found ? 1 : 0;
-  }
-  return static_cast<double>(covered) / static_cast<double>(b.cells_.size());
 }
 
 double SurfacePatch::area_m2() const { return kCell_m * kCell_m * static_cast<double>(cells_.size()); }

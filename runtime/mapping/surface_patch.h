@@ -37,8 +37,6 @@ class SurfacePatch {
   // The first point marked in every cell, in that order.
   [[nodiscard]] std::vector<Eigen::Vector3d> CellPoints() const;
   [[nodiscard]] double area_m2() const;
-  // Share of b's cells that lie on or next to one of this patch's.
-  [[nodiscard]] double Coverage(const SurfacePatch& b) const;
 
  private:
   uint32_t keyframe_;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "runtime/odometry/leveling.h"
 #include "runtime/odometry/registration.h"
@@ -138,8 +139,9 @@ void Odometry::Impl::Insert(const PreparedScan& prepared, const SweepMotion& at)
 void Odometry::Impl::Start(const PreparedScan& prepared, const std::optional<GivenMotion>& given) {
   SurfelMapOptions coarse = map.options();
   coarse.voxel_m = kLevelingVoxel_m;
+  coarse.max_points = std::numeric_limits<double>::infinity();
   SurfelMap around(coarse);
-  for (const SweepPoint& point : prepared.points) around.Insert(point.p, Eigen::Vector3d::Zero());
+  for (const Eigen::Vector3f& p : prepared.scan.points) around.Insert(p.cast<double>(), Eigen::Vector3d::Zero());
   around.EndScan();
   motion = {};
   if (const std::optional<Eigen::Vector3d> up = FindUp(around, kMaxTilt_rad)) motion.T_start.linear() = LevelingRotation(*up);

@@ -52,6 +52,7 @@ TEST(MoveToPlanFrame, MovesEveryPlaceAndKeepsPlanes) {
   graph.windows.emplace_back();
   graph.columns.push_back({"", "", StoreyId(0), {{0, 0}}, 0, 1});
   graph.walls.emplace_back();
+  graph.open_boundaries.emplace_back();
   MoveToPlanFrame(plan, graph);
   const Surface& moved = graph.surfaces[0];
   EXPECT_NEAR(moved.normal.head<2>().dot(moved.start) + moved.d_m, 0, 1e-9);
@@ -64,6 +65,7 @@ TEST(MoveToPlanFrame, MovesEveryPlaceAndKeepsPlanes) {
   EXPECT_EQ(graph.doorways[0].position, plan.origin);
   EXPECT_EQ(graph.windows[0].position, plan.origin);
   EXPECT_EQ(graph.columns[0].z_max_m, 11);
+  EXPECT_EQ(graph.open_boundaries[0].end, Eigen::Vector2d(100, 200));
   EXPECT_EQ(graph.walls[0].axis_start, Eigen::Vector2d(100, 200));
 }
 

@@ -41,7 +41,8 @@ TEST(VerifyFloorIr, NamesABoundaryThatDoesNotClose) {
   FloorIr ir;
   ir.walls.push_back({{0}, 0, 0, 1});
   Floor floor;
-  floor.footprints.push_back({FootprintKind::kWall, 0, 0, 1.1, true, {test::Rectangle({0, 0}, {1, 1})}});
+  floor.cut_heights_m = {1.1};
+  floor.footprints.push_back({FootprintKind::kWall, 0, 0, true, {test::Rectangle({0, 0}, {1, 1})}});
   floor.vertices = test::Rectangle({0, 0}, {1, 1});
   FloorFace outside, inside;
   inside.cover = {0};

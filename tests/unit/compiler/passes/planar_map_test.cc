@@ -12,7 +12,7 @@ using test::Rectangle;
 
 Floor FloorOf(const std::vector<Ring>& walls) {
   Floor floor;
-  for (uint32_t i = 0; i < walls.size(); ++i) floor.footprints.push_back({FootprintKind::kWall, i, i, 1.1, true, {walls[i]}});
+  for (uint32_t i = 0; i < walls.size(); ++i) floor.footprints.push_back({FootprintKind::kWall, i, i, true, {walls[i]}});
   return floor;
 }
 
@@ -64,7 +64,7 @@ TEST(PlanarMap, WiderGapsStayOpen) {
 
 TEST(PlanarMap, AFreeStandingWallIsAHole) {
   Floor floor = Box(0);
-  floor.footprints.push_back({FootprintKind::kWall, 4, 4, 1.1, true, {Rectangle({1, 1}, {2, 1.2})}});
+  floor.footprints.push_back({FootprintKind::kWall, 4, 4, true, {Rectangle({1, 1}, {2, 1.2})}});
   ASSERT_TRUE(BuildPlanarMap(floor, {}));
   const FloorFace& room = floor.faces[FaceLocator(floor).FaceAt({3, 2})];
   ASSERT_EQ(room.holes.size(), 1u);

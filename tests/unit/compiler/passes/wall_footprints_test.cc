@@ -64,7 +64,7 @@ TEST(CutFootprints, LowWallsBoundRoomsOnlyUnderARoof) {
   ASSERT_EQ(floors.floors[0].footprints.size(), 3u);
   EXPECT_FALSE(floors.floors[0].footprints[0].bounds_rooms);
   EXPECT_TRUE(floors.floors[0].footprints[1].bounds_rooms);
-  EXPECT_DOUBLE_EQ(floors.floors[0].footprints[1].cut_z_m, 0.45);
+  EXPECT_EQ(floors.floors[0].cut_heights_m, (std::vector<double>{0.45, 1.1}));
   EXPECT_FALSE(floors.floors[0].footprints[2].bounds_rooms);
   EXPECT_EQ(CountOf(sink, DiagnosticKind::kWallOffSection), 2u);
 }

@@ -1,0 +1,186 @@
+#include "compiler/frontends/ifc/ifc_shape.h"
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/unit/compiler/frontends/ifc/ifc_reader_fixture.h"
+
+namespace plumb::compiler {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+class ShapeReaderTest : public IfcReaderTest {
+ protected:
+  static double VolumeOf(const ShapeParts& parts) {
+    double sum = 0;
+    for (const ShapePart& part : parts) {
+      EXPECT_TRUE(IsClosed(part.solid));
+      sum += Volume(part.solid);
+    }
+    return sum;
+  }
+};
+
+// A box of 4 x 2 x 3 about the z axis as #10, its parts up to #19.
+const std::string kBox =
+    "#10=IFCEXTRUDEDAREASOLID(#11,$,#12,3.);\n#11=IFCRECTANGLEPROFILEDEF(.AREA.,$,$,4.,2.);\n#12=IFCDIRECTION((0.,0.,1.));\n"
+    "#13=IFCCARTESIANPOINT((0.,0.,0.));\n#14=IFCCARTESIANPOINT((0.,0.,2.));\n#15=IFCDIRECTION((0.,1.,0.));\n#16=IFCDIRECTION((1.,0.,0.));\n"
+    "#17=IFCDIRECTION((0.,0.,-1.));\n";
+
+TEST_F(ShapeReaderTest, ExtrusionWithPosition) {
+  const ShapeParts parts = ReadItem(kBox + "#20=IFCEXTRUDEDAREASOLID(#11,#21,#12,3.);\n#21=IFCAXIS2PLACEMENT3D(#14,#16,#15);", "#20");
+  EXPECT_NEAR(VolumeOf(parts), 24, 1e-9);
+  const auto box = Bounds(parts[0].solid);  // profile x along y, profile y along z, extruded along x
+  EXPECT_TRUE(box.min().isApprox(Eigen::Vector3d(0, -2, 1)));
+  EXPECT_TRUE(box.max().isApprox(Eigen::Vector3d(3, 2, 3)));
+}
+
+TEST_F(ShapeReaderTest, HalfSpaceTakesTheSideOfItsAgreement) {
+  const std::string cut =
+      "#20=IFCBOOLEANCLIPPINGRESULT(.DIFFERENCE.,#10,#21);\n#21=IFCHALFSPACESOLID(#22,FLAG);\n#22=IFCPLANE(#23);\n#23=IFCAXIS2PLACEMENT3D(#14,#12,#16);\n";
+  for (const auto& [flag, volume] : {std::pair(".F.", 16.0), std::pair(".T.", 8.0)}) {
+    std::string text = kBox + cut;
+    text.replace(text.find("FLAG"), 4, flag);
+    const ShapeParts parts = ReadItem(text, "#20", "Clipping");
+    EXPECT_NEAR(VolumeOf(parts), volume, 1e-9) << flag;  // plane at z = 2: .F. takes away what is above
+  }
+}
+
+TEST_F(ShapeReaderTest, PolygonalBoundedHalfSpaceCutsOnlyInItsBoundary) {
+  const ShapeParts parts = ReadItem(
+      kBox +
+          "#20=IFCBOOLEANCLIPPINGRESULT(.DIFFERENCE.,#10,#21);\n#21=IFCPOLYGONALBOUNDEDHALFSPACE(#22,.F.,#24,#30);\n#22=IFCPLANE(#23);\n"
+          "#23=IFCAXIS2PLACEMENT3D(#14,#12,#16);\n#24=IFCAXIS2PLACEMENT3D(#13,#12,#16);\n#30=IFCPOLYLINE((#31,#32,#33,#34,#31));\n"
+          "#31=IFCCARTESIANPOINT((0.,-5.));\n#32=IFCCARTESIANPOINT((1.,-5.));\n#33=IFCCARTESIANPOINT((1.,5.));\n#34=IFCCARTESIANPOINT((0.,5.));",
+      "#20", "Clipping");
+  EXPECT_NEAR(VolumeOf(parts), 24 - 1 * 2 * 1, 1e-9);
+}
+
+TEST_F(ShapeReaderTest, BooleansOfSolids) {
+  const std::string other = "#20=IFCEXTRUDEDAREASOLID(#21,$,#12,3.);\n#21=IFCRECTANGLEPROFILEDEF(.AREA.,$,$,1.,10.);\n";
+  EXPECT_NEAR(VolumeOf(ReadItem(kBox + other + "#30=IFCBOOLEANRESULT(.DIFFERENCE.,#10,#20);", "#30", "CSG")), 18, 1e-9);
+  EXPECT_NEAR(VolumeOf(ReadItem(kBox + other + "#30=IFCBOOLEANRESULT(.INTERSECTION.,#10,#20);", "#30", "CSG")), 6, 1e-9);
+  EXPECT_NEAR(VolumeOf(ReadItem(kBox + "#30=IFCCSGSOLID(#31);\n#31=IFCBOOLEANRESULT(.DIFFERENCE.,#10,#32);\n#32=IFCBLOCK(#33,1.,1.,9.);\n"
+                                       "#33=IFCAXIS2PLACEMENT3D(#13,$,$);",
+                                "#30", "CSG")),
+              21, 1e-9);
+}
+
+TEST_F(ShapeReaderTest, RevolvedTaperedAndDisk) {
+  EXPECT_NEAR(VolumeOf(ReadItem("#10=IFCREVOLVEDAREASOLID(#11,$,#12,3.14159265358979);\n#11=IFCRECTANGLEPROFILEDEF(.AREA.,$,#14,1.,1.);\n"
+                                "#12=IFCAXIS1PLACEMENT(#13,#16);\n#13=IFCCARTESIANPOINT((0.,0.,0.));\n#14=IFCAXIS2PLACEMENT2D(#15,$);\n"
+                                "#15=IFCCARTESIANPOINT((2.,0.));\n#16=IFCDIRECTION((0.,1.,0.));",
+                                "#10")),
+              2 * kPi, 0.02);
+  EXPECT_NEAR(VolumeOf(ReadItem(kBox + "#20=IFCEXTRUDEDAREASOLIDTAPERED(#11,$,#12,3.,#21);\n#21=IFCRECTANGLEPROFILEDEF(.AREA.,$,$,2.,1.);", "#20", "AdvancedSweptSolid")),
+              14, 1e-9);
+  EXPECT_NEAR(VolumeOf(ReadItem(kBox + "#20=IFCSWEPTDISKSOLID(#21,0.1,$,$,$);\n#21=IFCPOLYLINE((#13,#14));", "#20", "AdvancedSweptSolid")),
+              2 * 0.5 * 8 * std::sin(kPi / 4) * 0.01, 1e-9);
+}
+
+// A tetrahedron with one face turned the wrong way.
+TEST_F(ShapeReaderTest, BrepWithATurnedFaceIsMended) {
+  const ShapeParts parts = ReadItem(
+      "#10=IFCFACETEDBREP(#11);\n#11=IFCCLOSEDSHELL((#21,#22,#23,#24));\n#12=IFCCARTESIANPOINT((0.,0.,0.));\n#13=IFCCARTESIANPOINT((1.,0.,0.));\n"
+      "#14=IFCCARTESIANPOINT((0.,1.,0.));\n#15=IFCCARTESIANPOINT((0.,0.,1.));\n"
+      "#21=IFCFACE((#31));\n#22=IFCFACE((#32));\n#23=IFCFACE((#33));\n#24=IFCFACE((#34));\n"
+      "#31=IFCFACEOUTERBOUND(#41,.F.);\n#32=IFCFACEOUTERBOUND(#42,.T.);\n#33=IFCFACEOUTERBOUND(#43,.T.);\n#34=IFCFACEOUTERBOUND(#44,.T.);\n"
+      "#41=IFCPOLYLOOP((#12,#14,#13));\n#42=IFCPOLYLOOP((#12,#13,#15));\n#43=IFCPOLYLOOP((#13,#14,#15));\n#44=IFCPOLYLOOP((#14,#12,#15));",
+      "#10", "Brep");
+  EXPECT_NEAR(VolumeOf(parts), 1.0 / 6, 1e-12);
+}
+
+TEST_F(ShapeReaderTest, FaceSets) {
+  EXPECT_NEAR(VolumeOf(ReadItem("#10=IFCTRIANGULATEDFACESET(#11,$,.T.,((1,3,2),(1,2,4),(2,3,4),(3,1,4)),$);\n"
+                                "#11=IFCCARTESIANPOINTLIST3D(((0.,0.,0.),(1.,0.,0.),(0.,1.,0.),(0.,0.,1.)));",
+                                "#10", "Tessellation")),
+              1.0 / 6, 1e-12);
+  EXPECT_NEAR(VolumeOf(ReadItem("#10=IFCPOLYGONALFACESET(#11,.T.,(#21,#22,#23,#24,#25,#26),$);\n"
+                                "#11=IFCCARTESIANPOINTLIST3D(((0.,0.,0.),(1.,0.,0.),(1.,1.,0.),(0.,1.,0.),(0.,0.,2.),(1.,0.,2.),(1.,1.,2.),(0.,1.,2.)));\n"
+                                "#21=IFCINDEXEDPOLYGONALFACE((1,4,3,2));\n#22=IFCINDEXEDPOLYGONALFACE((5,6,7,8));\n#23=IFCINDEXEDPOLYGONALFACE((1,2,6,5));\n"
+                                "#24=IFCINDEXEDPOLYGONALFACE((2,3,7,6));\n#25=IFCINDEXEDPOLYGONALFACE((3,4,8,7));\n#26=IFCINDEXEDPOLYGONALFACE((4,1,5,8));",
+                                "#10", "Tessellation")),
+              2, 1e-12);
+  EXPECT_TRUE(ReadItem("#10=IFCTRIANGULATEDFACESET(#11,$,.T.,((1,3,9)),$);\n#11=IFCCARTESIANPOINTLIST3D(((0.,0.,0.),(1.,0.,0.),(0.,1.,0.)));", "#10", "Tessellation").empty());
+  EXPECT_EQ(diagnostics_.all().back().kind, DiagnosticKind::kBadAttribute);
+}
+
+// A cylinder of radius 1 and height 2: two planar caps and one face over a full turn with a seam.
+TEST_F(ShapeReaderTest, AdvancedBrepWithACylinder) {
+  const ShapeParts parts = ReadItem(
+      "#10=IFCADVANCEDBREP(#11);\n#11=IFCCLOSEDSHELL((#21,#22,#23));\n#12=IFCCARTESIANPOINT((1.,0.,0.));\n#13=IFCCARTESIANPOINT((1.,0.,2.));\n"
+      "#14=IFCVERTEXPOINT(#12);\n#15=IFCVERTEXPOINT(#13);\n#16=IFCCARTESIANPOINT((0.,0.,0.));\n#17=IFCCARTESIANPOINT((0.,0.,2.));\n"
+      "#18=IFCAXIS2PLACEMENT3D(#16,$,$);\n#19=IFCAXIS2PLACEMENT3D(#17,$,$);\n"
+      "#21=IFCADVANCEDFACE((#31),#41,.F.);\n#22=IFCADVANCEDFACE((#32),#42,.T.);\n#23=IFCADVANCEDFACE((#33),#43,.T.);\n"
+      "#31=IFCFACEOUTERBOUND(#34,.T.);\n#32=IFCFACEOUTERBOUND(#35,.T.);\n#33=IFCFACEOUTERBOUND(#36,.T.);\n"
+      "#34=IFCEDGELOOP((#51));\n#35=IFCEDGELOOP((#52));\n#36=IFCEDGELOOP((#53,#54,#55,#56));\n#41=IFCPLANE(#18);\n#42=IFCPLANE(#19);\n"
+      "#43=IFCCYLINDRICALSURFACE(#18,1.);\n#51=IFCORIENTEDEDGE(*,*,#61,.F.);\n#52=IFCORIENTEDEDGE(*,*,#62,.T.);\n"
+      "#53=IFCORIENTEDEDGE(*,*,#61,.T.);\n#54=IFCORIENTEDEDGE(*,*,#63,.T.);\n#55=IFCORIENTEDEDGE(*,*,#62,.F.);\n#56=IFCORIENTEDEDGE(*,*,#63,.F.);\n"
+      "#61=IFCEDGECURVE(#14,#14,#71,.T.);\n#62=IFCEDGECURVE(#15,#15,#72,.T.);\n#63=IFCEDGECURVE(#14,#15,#73,.T.);\n#71=IFCCIRCLE(#18,1.);\n"
+      "#72=IFCCIRCLE(#19,1.);\n#73=IFCLINE(#12,#74);\n#74=IFCVECTOR(#75,1.);\n#75=IFCDIRECTION((0.,0.,1.));",
+      "#10", "AdvancedBrep");
+  EXPECT_NEAR(VolumeOf(parts), 2 * kPi, 0.04);
+}
+
+TEST_F(ShapeReaderTest, MappedItemsScaleAndKeepTheirStyle) {
+  const ShapeParts parts = ReadItem(
+      kBox +
+          "#20=IFCMAPPEDITEM(#21,#25);\n#21=IFCREPRESENTATIONMAP(#22,#23);\n#22=IFCAXIS2PLACEMENT3D(#13,$,$);\n#23=IFCSHAPEREPRESENTATION($,'Body','SweptSolid',(#10));\n"
+          "#25=IFCCARTESIANTRANSFORMATIONOPERATOR3D($,$,#14,0.5,$);\n#30=IFCSTYLEDITEM(#10,(#31),$);\n#31=IFCSURFACESTYLE('Glas',.BOTH.,());\n"
+          "#40=IFCMAPPEDITEM(#21,#25);",
+      "#20,#40", "MappedRepresentation");
+  ASSERT_EQ(parts.size(), 2u);
+  EXPECT_NEAR(VolumeOf(parts), 6, 1e-9);
+  EXPECT_EQ(parts[0].look, Look::kGlass);
+  EXPECT_NEAR(Bounds(parts[1].solid).min().z(), 2, 1e-12);
+}
+
+TEST_F(ShapeReaderTest, ArcsOfACurvedWallFollowIt) {
+  const ShapeParts parts = ReadItem(
+      "#10=IFCEXTRUDEDAREASOLID(#11,#20,#12,3.);\n#11=IFCCIRCLEPROFILEDEF(.AREA.,$,$,2.);\n#12=IFCDIRECTION((0.,0.,1.));\n#20=IFCAXIS2PLACEMENT3D(#21,$,$);\n"
+      "#21=IFCCARTESIANPOINT((5.,6.,0.));",
+      "#10");
+  ASSERT_EQ(parts[0].arcs.size(), 1u);
+  EXPECT_TRUE((parts[0].T_part_profile * Eigen::Vector3d::Zero()).isApprox(Eigen::Vector3d(5, 6, 0)));
+}
+
+TEST_F(ShapeReaderTest, CyclesAndUnknownShapesAreDiagnosticsAndBoxesStandIn) {
+  EXPECT_TRUE(ReadItem("#20=IFCMAPPEDITEM(#21,$);\n#21=IFCREPRESENTATIONMAP($,#23);\n#23=IFCSHAPEREPRESENTATION($,'Body','MappedRepresentation',(#20));", "#20",
+                       "MappedRepresentation")
+                  .empty());
+  EXPECT_EQ(diagnostics_.all().back().kind, DiagnosticKind::kReferenceCycle);
+  EXPECT_TRUE(ReadItem("#20=IFCBOOLEANRESULT(.DIFFERENCE.,#20,#20);", "#20", "CSG").empty());
+  EXPECT_EQ(diagnostics_.all().back().kind, DiagnosticKind::kReferenceCycle);
+
+  Open(
+      "#10=IFCPRODUCTDEFINITIONSHAPE($,$,(#11,#12));\n#11=IFCSHAPEREPRESENTATION($,'Box','BoundingBox',(#13));\n#12=IFCSHAPEREPRESENTATION($,'Body','Brep',(#15));\n"
+      "#13=IFCBOUNDINGBOX(#14,1.,2.,3.);\n#14=IFCCARTESIANPOINT((0.,0.,0.));\n#15=IFCSECTIONEDSPINE($,$,$);");
+  EXPECT_NEAR(VolumeOf(shapes_->Body(Get(10))), 6, 1e-12);
+  const auto& all = diagnostics_.all();
+  ASSERT_GE(all.size(), 2u);
+  EXPECT_EQ(all[all.size() - 2].kind, DiagnosticKind::kUnsupportedGeometry);
+  EXPECT_EQ(all.back().kind, DiagnosticKind::kBoundingBoxInstead);
+}
+
+TEST_F(ShapeReaderTest, OperatorsThatDoubleAtEachLevelAreCutOff) {
+  options_.max_triangles_per_element = 5000;
+  std::string data = kBox;
+  uint64_t below = 10;
+  for (int level = 0; level < 40; ++level) {
+    const uint64_t id = 100 + 10 * static_cast<uint64_t>(level);
+    const auto n = [](uint64_t i) { return std::string("#").append(std::to_string(i)); };
+    for (const uint64_t item : {id, id + 1}) data.append(n(item)).append("=IFCMAPPEDITEM(").append(n(id + 2)).append(",$);\n");
+    data.append(n(id + 2)).append("=IFCREPRESENTATIONMAP($,").append(n(id + 3)).append(");\n");
+    data.append(n(id + 3)).append("=IFCSHAPEREPRESENTATION($,'Body','MappedRepresentation',(").append(n(below));
+    if (level > 0) data.append(",").append(n(below + 1));
+    data.append("));\n");
+    below = id;
+  }
+  const ShapeParts parts = ReadItem(data, std::string("#").append(std::to_string(below)), "MappedRepresentation");
+  EXPECT_LT(parts.size(), 20000u);
+  EXPECT_EQ(diagnostics_.all().back().kind, DiagnosticKind::kTooManyTriangles);
+}
+
+}  // namespace
+}  // namespace plumb::compiler

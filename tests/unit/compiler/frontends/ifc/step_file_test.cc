@@ -1,0 +1,163 @@
+#include "compiler/frontends/ifc/step_file.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "tests/support/ifc_text.h"
+
+namespace plumb::compiler {
+namespace {
+
+class StepFileTest : public ::testing::Test {
+ protected:
+  const StepFile& Index(std::string text) {
+    text_ = std::move(text);
+    file_ = StepFile::Index(text_, diagnostics_);
+    EXPECT_TRUE(file_);
+    return *file_;
+  }
+  std::vector<DiagnosticKind> Kinds() const {
+    std::vector<DiagnosticKind> kinds;
+    for (const Diagnostic& d : diagnostics_.all()) kinds.push_back(d.kind);
+    return kinds;
+  }
+
+  std::string text_;
+  DiagnosticSink diagnostics_;
+  std::optional<StepFile> file_;
+};
+
+TEST_F(StepFileTest, FindsInstancesTypesAndLines) {
+  const StepFile& file = Index(test::IfcText("#10=IFCWALL('a',#11);\n#11 = IFCDIRECTION ((0.,0.,1.));#12=IFCWALL('b',$);"));
+  EXPECT_TRUE(diagnostics_.all().empty());
+  EXPECT_EQ(file.schema_name(), "IFC4");
+  ASSERT_EQ(file.size(), 7u);
+  const uint32_t wall = file.Find(10), direction = file.Find(11);
+  EXPECT_EQ(file.type_name(file.type(wall)), "IFCWALL");
+  EXPECT_EQ(file.type_name(file.type(direction)), "IFCDIRECTION");
+  EXPECT_EQ(file.id(direction), 11u);
+  EXPECT_EQ(file.Line(wall), 12u);
+  EXPECT_EQ(file.Line(direction), 13u);
+  EXPECT_EQ(file.InstancesOf(file.type(wall)).size(), 2u);
+  EXPECT_EQ(file.Arguments(wall)[1].Reference(), 11u);
+  EXPECT_EQ(file.Find(99), StepFile::kNone);
+}
+
+TEST_F(StepFileTest, StringsAndCommentsHideWhatLooksLikeInstances) {
+  const StepFile& file = Index(test::IfcText("#10=IFCLABELED('; #99=IFCWALL(', 'it''s;');\n/* #98=IFCWALL('c'); */\n#11=IFCWALL(/* ; */ 'x');"));
+  EXPECT_TRUE(diagnostics_.all().empty());
+  EXPECT_EQ(file.Find(99), StepFile::kNone);
+  EXPECT_EQ(file.Find(98), StepFile::kNone);
+  EXPECT_EQ(file.Arguments(file.Find(10))[1].Text(), "it's;");
+  EXPECT_EQ(file.Arguments(file.Find(11))[0].Text(), "x");
+}
+
+TEST_F(StepFileTest, InstancesOverSeveralLines) {
+  const StepFile& file = Index(test::IfcText("#10=\r\nIFCWALL(\r\n'a',\r\n#11\r\n)\r\n;"));
+  EXPECT_EQ(file.Arguments(file.Find(10))[1].Reference(), 11u);
+}
+
+TEST_F(StepFileTest, SparseAndHugeIdsAreFound) {
+  const StepFile& file = Index(test::IfcText("#4000000000000=IFCWALL('a');\n#900000=IFCWALL('b');"));
+  EXPECT_EQ(file.Arguments(file.Find(4000000000000))[0].Text(), "a");
+  EXPECT_EQ(file.Arguments(file.Find(900000))[0].Text(), "b");
+  EXPECT_EQ(file.Find(900001), StepFile::kNone);
+}
+
+TEST_F(StepFileTest, NotAStepFileIsAnError) {
+  EXPECT_FALSE(StepFile::Index("solid cube", diagnostics_));
+  EXPECT_EQ(Kinds(), std::vector{DiagnosticKind::kStepSyntax});
+}
+
+TEST_F(StepFileTest, TruncationKeepsWhatIsWhole) {
+  std::string text = test::IfcText("#10=IFCWALL('a');\n#11=IFCWALL('b',$,$);");
+  text.resize(text.find("#11=") + 12);
+  const StepFile& file = Index(text);
+  EXPECT_NE(file.Find(10), StepFile::kNone);
+  EXPECT_EQ(file.Find(11), StepFile::kNone);
+  ASSERT_EQ(Kinds(), std::vector{DiagnosticKind::kStepSyntax});
+  EXPECT_EQ(diagnostics_.all()[0].location.line, 13u);
+}
+
+TEST_F(StepFileTest, TruncationInsideAString) {
+  std::string text = test::IfcText("#10=IFCWALL('a');\n#11=IFCWALL('bbbbb');");
+  text.resize(text.find("bbbbb") + 2);
+  const StepFile& file = Index(text);
+  EXPECT_NE(file.Find(10), StepFile::kNone);
+  EXPECT_EQ(Kinds(), std::vector{DiagnosticKind::kStepSyntax});
+}
+
+TEST_F(StepFileTest, MissingSemicolonLosesNoInstance) {
+  const StepFile& file = Index(test::IfcText("#10=IFCWALL('a')\n#11=IFCWALL('b');\n#12=IFCWALL('c');"));
+  for (const uint64_t id : {10u, 11u, 12u}) EXPECT_NE(file.Find(id), StepFile::kNone) << id;
+  ASSERT_EQ(Kinds(), std::vector{DiagnosticKind::kStepSyntax});
+  EXPECT_EQ(diagnostics_.all()[0].location.line, 12u);
+}
+
+TEST_F(StepFileTest, MissingQuoteLosesOneInstanceAtMost) {
+  const StepFile& file = Index(test::IfcText("#10=IFCWALL('a);\n#11=IFCWALL('b');\n#12=IFCWALL('c');"));
+  EXPECT_NE(file.Find(11), StepFile::kNone);
+  EXPECT_NE(file.Find(12), StepFile::kNone);
+  EXPECT_EQ(Kinds(), std::vector{DiagnosticKind::kStepSyntax});
+}
+
+TEST_F(StepFileTest, GarbageBetweenInstancesIsPassedOver) {
+  const StepFile& file = Index(test::IfcText("#10=IFCWALL('a');\n\x01\x02garbage;\n#=IFCWALL('x');\n#11 IFCWALL('b');\n#12=IFCWALL;\n#13=IFCWALL('d');"));
+  EXPECT_NE(file.Find(10), StepFile::kNone);
+  EXPECT_NE(file.Find(13), StepFile::kNone);
+  EXPECT_EQ(file.Find(12), StepFile::kNone);
+  EXPECT_EQ(diagnostics_.all().size(), 4u);
+}
+
+TEST_F(StepFileTest, DuplicateIdsAreReportedAndTheFirstHolds) {
+  const StepFile& file = Index(test::IfcText("#10=IFCWALL('a');\n#10=IFCWALL('b');"));
+  EXPECT_EQ(file.Arguments(file.Find(10))[0].Text(), "a");
+  EXPECT_EQ(Kinds(), std::vector{DiagnosticKind::kDuplicateInstance});
+}
+
+TEST_F(StepFileTest, SyntaxErrorsAreCapped) {
+  std::string data;
+  for (int i = 0; i < 1000; ++i) data += "?;\n";
+  Index(test::IfcText(data));
+  EXPECT_LE(diagnostics_.all().size(), 50u);
+}
+
+TEST_F(StepFileTest, LinesOfFilesWithCarriageReturnsOnly) {
+  std::string text = test::IfcText("#10=IFCWALL('a');");
+  std::replace(text.begin(), text.end(), '\n', '\r');
+  const StepFile& file = Index(text);
+  EXPECT_EQ(file.Line(file.Find(10)), 12u);
+}
+
+// Any damage to a file is survived: bytes changed, cut out and doubled.
+TEST_F(StepFileTest, SurvivesRandomDamage) {
+  const std::string whole = test::IfcText("#10=IFCWALL('a''b',#11,(1.,2.),IFCLABEL('c'),.T.);\n/* c */#11=IFCDIRECTION((0.,1.));\n#12=IFCX((((#10))),$,*);");
+  std::mt19937_64 rng(3);
+  for (int round = 0; round < 3000; ++round) {
+    std::string text = whole;
+    for (int k = 0; k < 3; ++k) {
+      const size_t at = 20 + rng() % (text.size() - 20);
+      switch (rng() % 3) {
+        case 0: text[at] = "#=();',/*\n\0\xff$."[rng() % 14]; break;
+        case 1: text.erase(at, rng() % 9); break;
+        default: text.insert(at, text.substr(rng() % text.size(), rng() % 9)); break;
+      }
+    }
+    DiagnosticSink sink;
+    const auto file = StepFile::Index(text, sink);
+    if (!file) continue;
+    for (uint32_t i = 0; i < file->size(); ++i) {
+      const StepArguments args = file->Arguments(i);
+      for (size_t a = 0; a < args.size(); ++a) {
+        (void)args[a].Real();
+        (void)args[a].Text();
+        for (const StepValue v : args[a].Items()) (void)v.kind();
+      }
+      EXPECT_GE(file->Line(i), 1u);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace plumb::compiler

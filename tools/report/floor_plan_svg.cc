@@ -107,33 +107,36 @@ bool HangsAtEnd(const AGraph& g, RoomId room, const Vector2d& start, const Vecto
   return to_end < to_start;
 }
 
+// A leaf standing open by 90 degrees, and the way that its free end takes.
+std::string DrawLeaf(const Vector2d& hinge, const Vector2d& latch, const Vector2d& swing, const Sheet& sheet) {
+  const Vector2d closed = latch - hinge, tip = hinge + closed.norm() * swing, open = tip - hinge;
+  // Sweep flag 1 is clockwise on the sheet.
+  const int sweep = open.x() * closed.y() - open.y() * closed.x() < 0 ? 1 : 0;
+  const std::string radius = Decimal(100 * closed.norm());
+  return fmt::format("<path class=\"leaf\" d=\"{}\"/>\n<path class=\"swing\" d=\"M{}A{} {} 0 0 {} {}\"/>\n", sheet.Line(hinge, tip), sheet.At(tip), radius,
+                     radius, sweep, sheet.At(latch));
+}
+
 std::string DrawDoor(const AGraph& g, const Doorway& d, const Sheet& sheet) {
+  constexpr double kWidestLeaf_m = 1.4;  // wider doors have two
   const double thickness_m = WallThickness(g, d.wall);
   const Vector2d through = Direction(d.yaw_rad), along = Left(through), middle = d.position.head<2>();
   const Ring ring = OpeningRing(middle, along, d.width_m, thickness_m + 0.02);
   std::string out = fmt::format("<path class=\"opening\" d=\"{}\"/>\n", sheet.Closed(ring));
-  const Vector2d half = 0.5 * d.width_m * along;
-  if (!d.has_leaf) {
-    for (const double side : {-0.5, 0.5}) {
-      const Vector2d at = middle + side * thickness_m * through;
-      fmt::format_to(std::back_inserter(out), "<path class=\"lintel\" d=\"{}\"/>\n", sheet.Line(at - half, at + half));
-    }
-    return out;
-  }
+  const std::string edges = sheet.Line(ring[0], ring[1]) + sheet.Line(ring[2], ring[3]);
+  if (!d.has_leaf) return out + fmt::format("<path class=\"lintel\" d=\"{}\"/>\n", edges);
   const bool to_b = OpensTowardsB(g, d);
   const Vector2d swing = to_b ? through : Vector2d(-through);
-  const Vector2d face = middle + 0.5 * thickness_m * swing;
-  const bool at_end = HangsAtEnd(g, to_b ? d.room_b : d.room_a, face - half, face + half);
-  const Vector2d hinge = at_end ? Vector2d(face + half) : Vector2d(face - half);
-  const Vector2d latch = 2 * face - hinge, tip = hinge + d.width_m * swing;
-  // Sweep flag 1 is clockwise on the sheet, whose y points down.
-  const Vector2d leaf = tip - hinge, closed = latch - hinge;
-  const int sweep = leaf.x() * closed.y() - leaf.y() * closed.x() < 0 ? 1 : 0;
-  const std::string radius = Decimal(100 * d.width_m);
-  fmt::format_to(std::back_inserter(out), "<path class=\"leaf\" d=\"{}\"/>\n<path class=\"swing\" d=\"M{}A{} {} 0 0 {} {}\"/>\n", sheet.Line(hinge, tip),
-                 sheet.At(tip), radius, radius, sweep, sheet.At(latch));
-  fmt::format_to(std::back_inserter(out), "<path class=\"sill\" d=\"{}{}\"/>\n", sheet.Line(ring[0], ring[1]), sheet.Line(ring[2], ring[3]));
-  return out;
+  const Vector2d face = middle + 0.5 * thickness_m * swing, half = 0.5 * d.width_m * along;
+  const Vector2d start = face - half, end = face + half;
+  if (d.width_m > kWidestLeaf_m) {
+    out += DrawLeaf(start, face, swing, sheet) + DrawLeaf(end, face, swing, sheet);
+  } else if (HangsAtEnd(g, to_b ? d.room_b : d.room_a, start, end)) {
+    out += DrawLeaf(end, start, swing, sheet);
+  } else {
+    out += DrawLeaf(start, end, swing, sheet);
+  }
+  return out + fmt::format("<path class=\"sill\" d=\"{}\"/>\n", edges);
 }
 
 double DistanceToSegment(const Vector2d& p, const Vector2d& a, const Vector2d& b) {

@@ -22,7 +22,7 @@ TEST(FloorPlanSvg, DrawsWallsDoorsAndRooms) {
   const std::string svg = FloorPlanToSvg(house, StoreyId(0));
   EXPECT_EQ(Count(svg, "class=\"cut\""), 7u);  // six walls and the chimney
   EXPECT_EQ(Count(svg, "class=\"swing\""), 1u);
-  EXPECT_EQ(Count(svg, "class=\"lintel\""), 4u);  // two doorways without a leaf
+  EXPECT_EQ(Count(svg, "class=\"lintel\""), 2u);  // two doorways without a leaf
   EXPECT_THAT(svg, HasSubstr(">A</text>"));
   EXPECT_THAT(svg, HasSubstr(">16.99 m²</text>"));
   EXPECT_EQ(svg, FloorPlanToSvg(house, StoreyId(0)));
@@ -39,6 +39,12 @@ TEST(FloorPlanSvg, LeafOfAnOuterDoorOpensInwards) {
   const AGraph house = test::MakeHouse();
   const Sheet sheet = SheetOf(house, StoreyId(0));
   EXPECT_THAT(DrawFloorPlan(house, StoreyId(0), sheet), HasSubstr("class=\"leaf\" d=\"" + sheet.Line({0, 1.2}, {0.9, 1.2}) + "\""));
+}
+
+TEST(FloorPlanSvg, WideDoorsHaveTwoLeaves) {
+  AGraph house = test::MakeHouse();
+  house.doorways[2].width_m = 1.6;
+  EXPECT_EQ(Count(FloorPlanToSvg(house, StoreyId(0)), "class=\"leaf\""), 2u);
 }
 
 TEST(FloorPlanSvg, EscapesNamesFromTheFile) {

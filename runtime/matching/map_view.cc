@@ -8,6 +8,7 @@ namespace plumb::runtime {
 namespace {
 
 constexpr double kMinWallLength_m = 0.4;
+constexpr double kMinHeightSeen_m = 0.25;       // area over length: less is a few stray rings on something rough, no wall
 constexpr double kMaxTilt = 0.26;               // |n_z| of an upright surface
 constexpr double kKeyframeSpacing_m = 0.3;      // closer ones see the same from the same place: no new evidence
 constexpr double kKeyframeTurn_rad = 0.52;      // ... unless they look elsewhere
@@ -43,7 +44,7 @@ std::vector<MapWall> UprightWalls(const SGraph& map) {
     w.start = s.start;
     w.end = s.end;
     w.length_m = s.length_m();
-    if (!(w.length_m >= kMinWallLength_m)) continue;
+    if (!(w.length_m >= kMinWallLength_m) || s.area_m2 < kMinHeightSeen_m * w.length_m) continue;
     w.along = (w.end - w.start) / w.length_m;
     w.normal = {-w.along.y(), w.along.x()};
     w.z_min_m = s.z_min_m;

@@ -135,6 +135,7 @@ std::string MatcherOptions::Check() const {
   if (!(accept_min_consistent_ratio >= 0 && accept_min_consistent_ratio <= 1)) {
     return bad("accept_min_consistent_ratio", accept_min_consistent_ratio, "in [0, 1]");
   }
+  if (!(vouch_explained_ratio > 0)) return bad("vouch_explained_ratio", vouch_explained_ratio, "positive");
   if (!(accept_max_through_ratio >= 0)) return bad("accept_max_through_ratio", accept_max_through_ratio, "at least 0");
   if (!(accept_scale_error > 0)) return bad("accept_scale_error", accept_scale_error, "positive");
   return {};

@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kSamePlace_m = 0.5, kSameYaw_rad = 0.0873, kSameHeight_m = 1.0;
 constexpr double kUnknownSigma = 1e3;
+constexpr int kPlanesWithRays = 4;
 
 // A direction that no wall fixes has no finite sigma; a weak prior keeps the inverse defined and says "unknown".
 void SetSigmas(const Eigen::Matrix3d& information, Hypothesis& hypothesis) {
@@ -70,13 +71,17 @@ int RequiredPlanes(size_t num_rooms, const MatcherOptions& options) {
 
 std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, int required_planes, const MatcherOptions& options) {
   const WallFit& fit = candidate.fit;
+  // Where nearly every ray ends on what the plan has there, furniture included, few bare or undisplaced walls are no doubt: the position
+  // needs three planes, a fourth tells the building from one that shares a corner.
+  const bool rays_vouch = candidate.rays.explained_ratio >= options.vouch_explained_ratio;
+  if (rays_vouch) required_planes = std::min(required_planes, kPlanesWithRays);
   if (hypothesis.sigma_xy_m > options.accept_sigma_xy_m || hypothesis.sigma_yaw_rad > options.accept_sigma_yaw_rad) {
     return "too few walls agree to fix the position in every direction";
   }
   if (fit.consistent_planes < required_planes) {
     return fmt::format("only {} wall planes agree with the plan, {} are asked for", fit.consistent_planes, required_planes);
   }
-  if (fit.consistent_ratio < options.accept_min_consistent_ratio) {
+  if (!rays_vouch && fit.consistent_ratio < options.accept_min_consistent_ratio) {
     return fmt::format("only {:.0f} % of the walls seen agree with the plan", 100 * fit.consistent_ratio);
   }
   if (candidate.rays.through_ratio > options.accept_max_through_ratio) {

@@ -102,17 +102,19 @@ struct Localizer::Impl {
     T_plan_map = match.hypotheses.front().T_plan_map;
     for (size_t i = 1; i < match.hypotheses.size(); ++i) rivals.push_back(match.hypotheses[i].T_plan_map);
     verdict = Verdict::kLocalized;
-    Optimize();
+    Optimize(false);
   }
 
-  // Couples map and plan at the current estimate and solves everything jointly.
-  void Optimize() {
+  // Couples map and plan at the current estimate and solves everything jointly. Covariances cost half of the time and steer nothing:
+  // they are left out until somebody asks.
+  void Optimize(bool covariances) {
     const std::vector<Match> matches = MatchSurfaces(mapper.graph(), plan, T_plan_map, known, options.coupling);
     if (matches.empty()) return;
-    JointResult result = OptimizeJointly(mapper.graph(), plan, matches, T_plan_map, options.joint);
+    JointOptions joint_options = options.joint;
+    joint_options.covariances = covariances;
+    JointResult result = OptimizeJointly(mapper.graph(), plan, matches, T_plan_map, joint_options);
     if (!result.converged) return;
     joint = std::move(result);
-    // Rivals are places of the map as it was: they move with it.
     T_plan_map = joint.T_plan_map;
     for (const WallEstimate& wall : joint.walls) known[wall.wall.index()] = wall.deviation;
     std::vector<Keyframe>& keyframes = mapper.mutable_graph().keyframes;
@@ -140,7 +142,7 @@ struct Localizer::Impl {
       timing.push_back({"matching", watch.Lap()});
       return;
     }
-    if (count % static_cast<size_t>(options.optimize_every) == 0) Optimize();
+    if (count % static_cast<size_t>(options.optimize_every) == 0) Optimize(false);
     timing.push_back({"optimization", watch.Lap()});
     if (count % static_cast<size_t>(options.rescore_every) == 0) {
       Rescore();
@@ -183,7 +185,8 @@ ScanVerdict Localizer::AddScan(const Scan& scan, const std::optional<Odometry::G
 }
 
 void Localizer::Finish() {
-  if (impl_->verdict == Verdict::kLocalized) impl_->Optimize();
+  impl_->mapper.Flush();
+  if (impl_->verdict == Verdict::kLocalized) impl_->Optimize(true);
 }
 
 const SGraph& Localizer::map() const { return impl_->mapper.graph(); }

@@ -31,7 +31,7 @@ struct MatcherOptions {
   double accept_min_consistent_ratio = 0.35;  // of the map's wall length; the rest may be furniture and deviated walls
   double vouch_explained_ratio = 0.85;        // of the rays end where the plan says: then 4 planes do, whatever share of the map they are
   double accept_max_through_ratio = 0.02;     // of the rays: may pass through walls of the plan
-  double accept_scale_error = 0.02;           // the building's size against the plan's, with two sigmas
+  double accept_scale_error = 0.025;          // the building's size against the plan's, with two sigmas
   [[nodiscard]] std::string Check() const;
 };
 

@@ -42,6 +42,7 @@ constexpr KnownKind kKnown[] = {
     {IfcType::kIfcSystemFurnitureElement, ElementKind::kFurniture},
     {IfcType::kIfcCovering, ElementKind::kCovering},
     {IfcType::kIfcBuildingElementProxy, ElementKind::kProxy},
+    {IfcType::kIfcProxy, ElementKind::kProxy},
     {IfcType::kIfcBuildingElementPart, ElementKind::kOther},
     {IfcType::kIfcSite, ElementKind::kGround},
     {IfcType::kIfcGeographicElement, ElementKind::kGround},

@@ -59,8 +59,8 @@ class Frontend {
     ReadSpaces();
     if (MoveNearZero(options_.far_origin_m, plan_)) {
       model_.Emit(DiagnosticKind::kFarOrigin, kNone,
-                  fmt::format("the plan lies around ({}, {}, {}) m; it is moved near zero inside and written where it was", plan_.origin.x(), plan_.origin.y(),
-                              plan_.origin.z()));
+                  fmt::format("the plan lies around ({}, {}, {}) m; it is moved near zero inside and written where it was",
+                              plan_.origin.x(), plan_.origin.y(), plan_.origin.z()));
     }
     if (plan_.storeys.empty()) MakeStorey();
     return std::move(plan_);
@@ -89,7 +89,8 @@ class Frontend {
       }
       entries.push_back({instance, std::move(out)});
     }
-    std::stable_sort(entries.begin(), entries.end(), [](const Entry& a, const Entry& b) { return a.storey.elevation_m < b.storey.elevation_m; });
+    std::stable_sort(entries.begin(), entries.end(),
+                     [](const Entry& a, const Entry& b) { return a.storey.elevation_m < b.storey.elevation_m; });
     storey_of_.assign(model_.size(), kNoIndex);
     for (Entry& entry : entries) {
       storey_of_[entry.instance] = static_cast<uint32_t>(plan_.storeys.size());
@@ -128,7 +129,8 @@ class Frontend {
     for (const ShapePart& part : product.parts) {
       if (IsClosed(part.solid)) continue;
       model_.Emit(DiagnosticKind::kBodyNotClosed, product.instance,
-                  fmt::format("the body of {} is not closed: its edges do not pair; openings cut its surface only", model_.Label(product.instance)));
+                  fmt::format("the body of {} is not closed: its edges do not pair; openings cut its surface only",
+                              model_.Label(product.instance)));
       return;
     }
   }
@@ -147,7 +149,8 @@ class Frontend {
         DescribeWall(product, element);
         CheckWall(product);
         if (element.storey == kNoIndex) {
-          model_.Emit(DiagnosticKind::kElementWithoutStorey, product.instance, fmt::format("{} is contained in no storey", model_.Label(product.instance)));
+          model_.Emit(DiagnosticKind::kElementWithoutStorey, product.instance,
+                      fmt::format("{} is contained in no storey", model_.Label(product.instance)));
         }
       }
       if (HasUncut(product.kind)) {
@@ -165,7 +168,8 @@ class Frontend {
 
   void ReportNoBody(const Product& product) const {
     if (product.kind == ElementKind::kWall) {
-      model_.Emit(DiagnosticKind::kWallWithoutBody, product.instance, fmt::format("{} has no body that can be read; it is left out", model_.Label(product.instance)));
+      model_.Emit(DiagnosticKind::kWallWithoutBody, product.instance,
+                  fmt::format("{} has no body that can be read; it is left out", model_.Label(product.instance)));
     }
   }
 
@@ -220,7 +224,8 @@ class Frontend {
     if (opening.filling != kNoIndex) DescribeFilling(opening.filling, out);
     if (!opening.cuts && !opening.cut_before && !opening.solids.empty() && out.wall != kNoIndex) {
       model_.Emit(DiagnosticKind::kOpeningMissesHost, opening.instance,
-                  fmt::format("the opening {} does not meet {}, which it should cut", model_.Label(opening.instance), model_.Label(relations_.HostOf(opening.instance))));
+                  fmt::format("the opening {} does not meet {}, which it should cut", model_.Label(opening.instance),
+                              model_.Label(relations_.HostOf(opening.instance))));
     }
     plan_.openings.push_back(std::move(out));
   }
@@ -265,7 +270,8 @@ class Frontend {
       low_m = first ? z : std::min(low_m, z);
       first = false;
     }
-    model_.Emit(DiagnosticKind::kNoStorey, kNone, fmt::format("the file has no IfcBuildingStorey; one storey at {} m, under the lowest wall, holds everything", low_m));
+    model_.Emit(DiagnosticKind::kNoStorey, kNone,
+                fmt::format("the file has no IfcBuildingStorey; one storey at {} m, under the lowest wall, holds everything", low_m));
     plan_.storeys.push_back({{}, "storey", {}, low_m});
     for (PlanElement& element : plan_.elements) element.storey = 0;
     for (PlanSpace& space : plan_.spaces) space.storey = 0;

@@ -9,7 +9,8 @@
 
 namespace plumb::compiler {
 
-OpeningTable::OpeningTable(const IfcModel& model, PlacementReader& placements, const Relations& relations, ProductTable& products, const IfcOptions& options)
+OpeningTable::OpeningTable(const IfcModel& model, PlacementReader& placements, const Relations& relations, ProductTable& products,
+                           const IfcOptions& options)
     : model_(model), placements_(placements), relations_(relations), products_(products), options_(options) {
   std::vector<uint32_t> instances;
   for (const IfcType type : {IfcType::kIfcOpeningElement, IfcType::kIfcOpeningStandardCase, IfcType::kIfcVoidingFeature}) {
@@ -24,7 +25,8 @@ OpeningTable::OpeningTable(const IfcModel& model, PlacementReader& placements, c
     opening.product = products.Root(relations.HostOf(instance));
     for (ShapePart& part : products.PlacedBody(instance)) opening.solids.push_back(std::move(part.solid));
     if (opening.solids.empty()) {
-      model.Emit(DiagnosticKind::kOpeningWithoutBody, instance, fmt::format("the opening {} has no body that can be read; it cuts nothing", model.Label(instance)));
+      model.Emit(DiagnosticKind::kOpeningWithoutBody, instance,
+                 fmt::format("the opening {} has no body that can be read; it cuts nothing", model.Label(instance)));
     }
     openings_.push_back(std::move(opening));
   }
@@ -48,7 +50,8 @@ std::vector<Opening*> OpeningTable::Cutting(uint32_t product) {
 void OpeningTable::Cut(uint32_t product, ShapeParts& parts) {
   for (Opening* opening : Cutting(product)) {
     for (const Solid& tool : opening->solids) {
-      for (ShapePart& part : parts) opening->cuts |= CutOpening(model_, {products_[product].instance, opening->instance}, options_, tool, part.solid);
+      for (ShapePart& part : parts)
+        opening->cuts |= CutOpening(model_, {products_[product].instance, opening->instance}, options_, tool, part.solid);
     }
   }
   std::erase_if(parts, [](const ShapePart& part) { return part.solid.empty(); });
@@ -104,7 +107,8 @@ void OpeningTable::AssignByPlace(const std::vector<char>& is_filling) {
     opening.filling = product;
     const std::string label = model_.Label(products_[product].instance);
     model_.Emit(DiagnosticKind::kFillingInferred, products_[product].instance,
-                fmt::format("{} fills no opening by IfcRelFillsElement; it stands in {}, which is taken for it", label, model_.Label(opening.instance)));
+                fmt::format("{} fills no opening by IfcRelFillsElement; it stands in {}, which is taken for it", label,
+                            model_.Label(opening.instance)));
   }
 }
 

@@ -19,7 +19,8 @@ struct Opening {
 class OpeningTable {
  public:
   // Reads every opening that voids something. What is passed must outlive the table.
-  OpeningTable(const IfcModel& model, PlacementReader& placements, const Relations& relations, ProductTable& products, const IfcOptions& options);
+  OpeningTable(const IfcModel& model, PlacementReader& placements, const Relations& relations, ProductTable& products,
+               const IfcOptions& options);
 
   [[nodiscard]] const std::vector<Opening>& all() const { return openings_; }  // in the order of the file
 

@@ -7,8 +7,8 @@
 
 namespace plumb::compiler {
 
-ProductTable::ProductTable(const IfcModel& model, PlacementReader& placements, const StyleReader& styles, ShapeReader& shapes, const Relations& relations,
-                           const IfcOptions& options)
+ProductTable::ProductTable(const IfcModel& model, PlacementReader& placements, const StyleReader& styles, ShapeReader& shapes,
+                           const Relations& relations, const IfcOptions& options)
     : model_(model), placements_(placements), styles_(styles), shapes_(shapes), relations_(relations), options_(options) {
   const ProductKinds kinds(model);
   product_of_.assign(model.size(), kNoIndex);

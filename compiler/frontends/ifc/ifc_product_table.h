@@ -28,8 +28,8 @@ class ProductTable {
  public:
   // Reads all products. The parts of a wall or curtain wall (IfcRelAggregates) are merged into it, but for doors and windows; the parts of
   // stairs and roofs take their kind. What is passed must outlive the table.
-  ProductTable(const IfcModel& model, PlacementReader& placements, const StyleReader& styles, ShapeReader& shapes, const Relations& relations,
-               const IfcOptions& options);
+  ProductTable(const IfcModel& model, PlacementReader& placements, const StyleReader& styles, ShapeReader& shapes,
+               const Relations& relations, const IfcOptions& options);
 
   [[nodiscard]] uint32_t size() const { return static_cast<uint32_t>(products_.size()); }
   [[nodiscard]] const Product& operator[](uint32_t product) const { return products_[product]; }

@@ -67,8 +67,10 @@ ProductKinds::ProductKinds(const IfcModel& model) : model_(model), kinds_(model.
   }
   for (uint16_t type = 0; type < kinds_.size(); ++type) {
     const auto instances = model.file().InstancesOf(type);
-    if (instances.empty() || model.TypeOf(instances[0]) != IfcType::kUnknown || model.file().type_name(type).starts_with("IFCSTRUCTURAL")) continue;
-    const bool is_product = std::any_of(instances.begin(), instances.end(), [&](uint32_t i) { return LooksLikeProduct(model, model.Get(i)); });
+    if (instances.empty() || model.TypeOf(instances[0]) != IfcType::kUnknown || model.file().type_name(type).starts_with("IFCSTRUCTURAL"))
+      continue;
+    const bool is_product =
+        std::any_of(instances.begin(), instances.end(), [&](uint32_t i) { return LooksLikeProduct(model, model.Get(i)); });
     if (is_product) kinds_[type] = ElementKind::kOther;
   }
 }

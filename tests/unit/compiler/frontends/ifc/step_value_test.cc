@@ -24,8 +24,8 @@ class Parsed {
 TEST(StepValue, TellsKindsApart) {
   const Parsed a("($,*,12,-1.5E3,'x',.T.,#42,(1,2),IFCLABEL('y'),\"0F\",!)");
   ASSERT_EQ(a.size(), 11u);
-  const Kind expected[] = {Kind::kNull, Kind::kDerived,   Kind::kInteger, Kind::kReal,  Kind::kString, Kind::kEnumeration,
-                           Kind::kReference, Kind::kList, Kind::kTyped,   Kind::kBinary, Kind::kBad};
+  const Kind expected[] = {Kind::kNull,      Kind::kDerived, Kind::kInteger, Kind::kReal,   Kind::kString, Kind::kEnumeration,
+                           Kind::kReference, Kind::kList,    Kind::kTyped,   Kind::kBinary, Kind::kBad};
   for (size_t i = 0; i < a.size(); ++i) EXPECT_EQ(a[i].kind(), expected[i]) << i;
   EXPECT_EQ(a[11].kind(), Kind::kNone);
   EXPECT_TRUE(a[0].is_null());

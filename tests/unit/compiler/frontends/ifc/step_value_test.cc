@@ -120,7 +120,7 @@ TEST(StepValue, AbsurdNestingCostsNoStack) {
 
 TEST(StepArguments, KeepsTheFirstOnesOfTooMany) {
   std::string text = "(0";
-  for (int i = 1; i < 100; ++i) text += "," + std::to_string(i);
+  for (int i = 1; i < 100; ++i) text.append(",").append(std::to_string(i));
   const Parsed a(text + ")");
   EXPECT_EQ(a.size(), StepArguments::kMax);
   EXPECT_EQ(a[StepArguments::kMax - 1].Integer(), static_cast<int64_t>(StepArguments::kMax) - 1);

@@ -105,6 +105,13 @@ struct Column {
   double z_min_m = 0, z_max_m = 0;
 };
 
+// Where two rooms meet without a wall between them: parts of an open plan that the source names apart.
+struct OpenBoundary {
+  StoreyId storey;
+  RoomId room_a, room_b;
+  Eigen::Vector2d start = Eigen::Vector2d::Zero(), end = Eigen::Vector2d::Zero();  // room_a on the left of the way from start to end
+};
+
 // What ties the nodes. Variables by kind: kWallSurfaces: wall, surface, surface (opposite faces);
 // kRoomSurfaces: room, surfaces...; kDoorwayRooms: doorway, room, room; kStoreyRoom: storey, room.
 struct Factor {
@@ -162,6 +169,7 @@ struct AGraph {
   std::vector<Doorway> doorways;
   std::vector<Window> windows;
   std::vector<Column> columns;
+  std::vector<OpenBoundary> open_boundaries;
   std::vector<Factor> factors;
   std::vector<Element> elements;
   Mesh mesh;

@@ -157,6 +157,18 @@ Json Columns(const AGraph& g) {
   return out;
 }
 
+Json OpenBoundaries(const AGraph& g) {
+  Json out = Json::array();
+  for (size_t i = 0; i < g.open_boundaries.size(); ++i) {
+    const OpenBoundary& b = g.open_boundaries[i];
+    Json entry = Entry(i, "", "", b.storey);
+    entry["rooms"] = Json::array({Reference(b.room_a), Reference(b.room_b)});
+    entry["segment"] = Json::array({Point(b.start), Point(b.end)});
+    out.push_back(std::move(entry));
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string AGraphToJson(const AGraph& g) {
@@ -170,6 +182,7 @@ std::string AGraphToJson(const AGraph& g) {
   out["doorways"] = Doorways(g);
   out["windows"] = Windows(g);
   out["columns"] = Columns(g);
+  out["open_boundaries"] = OpenBoundaries(g);
   // Bytes that are no UTF-8 (a damaged name) become U+FFFD instead of an exception.
   return out.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -74,6 +74,9 @@ void ReadOpenings(const fb::AGraph& in, AGraph& out) {
   ReadAll(in.columns(), out.columns, [](const fb::Column& c) {
     return Column{Str(c.guid()), Str(c.name()), StoreyId(c.storey()), ToRing(c.outline()), c.z_min_m(), c.z_max_m()};
   });
+  ReadAll(in.open_boundaries(), out.open_boundaries, [](const fb::OpenBoundary& b) {
+    return OpenBoundary{StoreyId(b.storey()), RoomId(b.room_a()), RoomId(b.room_b()), Vec(b.start()), Vec(b.end())};
+  });
 }
 
 void ReadRest(const fb::AGraph& in, AGraph& out) {
@@ -201,6 +204,13 @@ class Checker {
       Finite("column", i, c.z_min_m, c.z_max_m);
       CheckRing("column", i, c.outline);
       Reference("column", i, c.storey, storeys, true);
+    }
+    for (size_t i = 0; i < graph_.open_boundaries.size(); ++i) {
+      const OpenBoundary& b = graph_.open_boundaries[i];
+      Finite("open boundary", i, b.start, b.end);
+      Reference("open boundary", i, b.storey, storeys, true);
+      Reference("open boundary", i, b.room_a, graph_.rooms.size(), false);
+      Reference("open boundary", i, b.room_b, graph_.rooms.size(), false);
     }
   }
   void CheckMesh() {

@@ -92,6 +92,13 @@ auto PackColumns(Builder& b, const AGraph& g) {
   });
 }
 
+auto PackOpenBoundaries(Builder& b, const AGraph& g) {
+  return PackAll(b, g.open_boundaries, [&](const OpenBoundary& o) {
+    const fb::Vec2 start = Pack(o.start), end = Pack(o.end);
+    return fb::CreateOpenBoundary(b, o.storey.value, o.room_a.value, o.room_b.value, &start, &end);
+  });
+}
+
 auto PackFactors(Builder& b, const AGraph& g) {
   return PackAll(b, g.factors, [&](const Factor& f) {
     return fb::CreateFactor(b, static_cast<fb::FactorKind>(f.kind), b.CreateVector(f.variables));
@@ -156,9 +163,11 @@ std::vector<uint8_t> WriteAGraph(const AGraph& g) {
   const auto mesh = PackMesh(b, g.mesh);
   const auto aliases = PackAliases(b, g);
   const auto diagnostics = PackDiagnostics(b, g);
+  const auto open_boundaries = PackOpenBoundaries(b, g);
   const fb::Vec3 origin = Pack(g.origin);
   b.Finish(fb::CreateAGraph(b, kSchemaMajor, kSchemaMinor, tool_version, source_path, source_format, source_sha256, options, &origin, storeys,
-                            walls, surfaces, rooms, doorways, windows, columns, factors, elements, mesh, aliases, diagnostics),
+                            walls, surfaces, rooms, doorways, windows, columns, factors, elements, mesh, aliases, diagnostics,
+                            open_boundaries),
            fb::AGraphIdentifier());
   return {b.GetBufferPointer(), b.GetBufferPointer() + b.GetSize()};
 }

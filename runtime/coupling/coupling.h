@@ -10,32 +10,41 @@
 
 namespace plumb::runtime {
 
-// How the built wall stands to its plan, in the wall-centred form: at the planned surface's midpoint, along its normal.
+// How the built wall stands to its plan, in the wall-centred form (wall_frame.h): at the midpoint of the wall's reference surface (its
+// longest straight one), along that surface's normal.
 struct WallDeviation {
   double offset_m = 0;   // + along the planned normal of the reference surface
   double yaw_rad = 0;    // + counter-clockwise about +z
 };
 
 struct CouplingOptions {
-  double max_offset_m = 0.6;
+  double max_offset_m = 0.6;        // gate, relative to where the wall is believed to stand
   double max_yaw_rad = 0.35;
+  double max_level_offset_m = 0.25; // the same for floors and ceilings
   double min_overlap_ratio = 0.3;   // of the shorter of the two, along the wall
-  double offset_tau0_m = 0.01, offset_tau1_m = 0.20;   // mixture prior: as planned, deviated
-  double yaw_tau0_rad = 0.00524, yaw_tau1_rad = 0.1396;
+  double min_height_overlap_ratio = 0.5;  // of the shorter of the two height bands
+  double max_step_m = 0.15;         // patches of one side of a wall lie on one line within this; what does not is furniture or another wall
+  double unmatched_cost_nats = 6;   // a patch that no plan surface explains better than this stays unmatched
+  // Mixture prior, standard deviations: as planned (limits of DIN 18202 for 3 to 6 m, 16 mm, taken as three sigmas; 0.2 deg), deviated.
+  double offset_tau0_m = 0.005, offset_tau1_m = 0.20;
+  double yaw_tau0_rad = 0.0035, yaw_tau1_rad = 0.1396;
   double deviated_ratio = 0.2;      // prior probability that a wall deviates
-  [[nodiscard]] std::string Check() const;
+  [[nodiscard]] std::string Check() const;  // empty, or the field, its value and the rule
 };
 
 struct Match {
   uint32_t map_surface = 0;  // SGraph::surfaces
   SurfaceId plan_surface;    // AGraph::surfaces; none for floors and ceilings
-  RoomId room;               // whose floor or ceiling
-  double offset_m = 0, yaw_rad = 0;  // as measured under the given transform
+  RoomId room;               // whose floor or ceiling; none for walls
+  double offset_m = 0, yaw_rad = 0;  // as measured under the given transform, at the middle of the overlap (floors, ceilings: along +z)
 };
 
 // One-to-one where the plan has one candidate, many map patches to one plan surface where the map has the wall in pieces; never one patch to
-// two surfaces. Ambiguous assignments are decided jointly by the smallest sum of -log p. `known`: per plan wall the deviation estimated so
-// far (empty at first), so that a deviated wall keeps its patches. Deterministic.
+// two surfaces. Ambiguous assignments are decided by the smallest sum of -log p. All patches of one side of one wall lie on one line: where
+// they do not, one line is the wall and the others go to their next candidate or stay unmatched (furniture). A line that lies behind
+// another and reaches higher, or has at least half its area, is the wall rather than the one in front: nothing is seen through a wall.
+// `known`: per plan wall the deviation estimated so far (empty at first), so that a deviated wall keeps its patches.
+// In the order of map surfaces. O(map surfaces * plan surfaces). Deterministic.
 [[nodiscard]] std::vector<Match> MatchSurfaces(const SGraph& map, const AGraph& plan, const Eigen::Isometry3d& T_plan_map,
                                                const std::vector<WallDeviation>& known, const CouplingOptions& options = {});
 

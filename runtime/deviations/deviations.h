@@ -8,34 +8,39 @@
 
 namespace plumb::runtime {
 
+// kMissing (the plan has it, the building does not) needs rays that pass through and is not decided here.
 enum class SurfaceStatus : uint8_t { kAsPlanned, kDeviated, kMissing, kUnobserved };
+[[nodiscard]] const char* StatusName(SurfaceStatus status);  // as_planned | deviated | missing | unobserved
 
 struct DeviationOptions {
   double false_discovery_rate = 0.01;   // Benjamini-Hochberg over the observed walls
-  double min_offset_m = 0.02;           // tolerance: smaller deviations are as planned
+  double tolerance_offset_m = 0.005;    // construction tolerance (standard deviation) that the test allows for
+  double tolerance_yaw_rad = 0.0035;
+  double min_offset_m = 0.02;           // smaller deviations are as planned, however certain
   double min_yaw_rad = 0.0087;
-  double min_observed_m2 = 0.5;         // less was not seen well enough to judge
+  double min_observed_m2 = 0.5;         // less, over all faces of a wall, was not seen well enough to judge
   double min_p_deviated = 0.95;
-  [[nodiscard]] std::string Check() const;
+  [[nodiscard]] std::string Check() const;  // empty, or the field, its value and the rule
 };
 
 struct SurfaceDeviation {
   SurfaceId surface;
   SurfaceStatus status = SurfaceStatus::kUnobserved;
   double translation_m = 0, sigma_translation_m = 0;  // at the surface's midpoint, + along its planned normal
-  double rotation_rad = 0, sigma_rotation_rad = 0;
-  double tilt_rad = 0;
+  double rotation_rad = 0, sigma_rotation_rad = 0;    // + counter-clockwise about +z
+  double tilt_rad = 0;                                // + the normal turns upwards
   double p_deviated = 0;
-  double observed_m2 = 0;
+  double observed_m2 = 0;                             // of this surface alone
   double points = 0;
 };
 
+// Rigid motion of the room in the plane, about its centre: what its walls moved, all in all.
 struct RoomDeviation {
   RoomId room;
   SurfaceStatus status = SurfaceStatus::kUnobserved;
   Eigen::Vector2d translation_m = Eigen::Vector2d::Zero();
   double rotation_rad = 0;
-  double sigma_m = 0;
+  double sigma_m = 0;  // of the translation, per axis
 };
 
 struct DeviationReport {
@@ -44,7 +49,9 @@ struct DeviationReport {
   std::vector<RoomDeviation> rooms;        // one per plan room
 };
 
-// Every surface of a wall carries the wall's deviation, moved to the surface's own midpoint and normal, plus its share of the thickness.
+// Every face of a wall carries the wall's deviation, moved to the face's own midpoint and normal, plus its share of the thickness, and the
+// wall's status; ends of walls and curved surfaces stay unobserved. A wall deviates if Benjamini-Hochberg rejects "as planned" on the
+// chi-square (2 dof) of (offset, yaw) with full covariance plus tolerance, and it exceeds a minimum magnitude, and p_deviated is high.
 [[nodiscard]] DeviationReport AssessDeviations(const AGraph& plan, const JointResult& estimate, const DeviationOptions& options = {});
 
 // deviations.json, version 1.

@@ -19,6 +19,10 @@ enum class Verdict : uint8_t { kSearching, kAmbiguous, kLocalized, kLost };
 [[nodiscard]] const char* VerdictName(Verdict verdict);  // searching | ambiguous | localized | lost
 
 struct LocalizerOptions {
+  int optimize_every = 1;          // keyframes between two joint solves once localized
+  int rescore_every = 10;          // keyframes between two re-scorings of the fix against its rivals and against "outside the plan"
+  int lost_after = 2;              // as many re-scorings in a row that speak against the fix end it
+  double rival_margin_nats = 5.0;  // a rival must be better by this much to count against the fix
   OdometryOptions odometry;
   MapperOptions mapper;
   MatcherOptions matcher;
@@ -41,9 +45,13 @@ struct ScanVerdict {
   std::vector<StageTime> timing;
 };
 
+// What a given odometry (any start frame) says of the lidar's motion during `scan`; none where it does not cover the sweep.
+[[nodiscard]] std::optional<Odometry::GivenMotion> GivenMotionDuring(const Scan& scan, const Trajectory& given_odometry);
+
+// Single-threaded and deterministic: the same scans give the same verdicts, poses and deviations.
 class Localizer {
  public:
-  // `plan` must outlive it.
+  // `plan` must outlive it; `options` must pass Check().
   Localizer(const AGraph& plan, const LocalizerOptions& options = {});
   ~Localizer();
 

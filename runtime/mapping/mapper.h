@@ -1,34 +1,29 @@
 // Turns registered scans into the S-Graph: keyframes, planar segments, data association, merging.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "runtime/mapping/keyframe_window.h"
+#include "runtime/mapping/map_surfaces.h"
+#include "runtime/mapping/mapper_options.h"
 #include "runtime/mapping/sgraph.h"
 #include "runtime/sources/recording.h"
 
 namespace plumb::runtime {
 
-struct MapperOptions {
-  double keyframe_distance_m = 0.5;      // a new keyframe after this far, ...
-  double keyframe_rotation_rad = 0.1745; // ... this much turning, ...
-  double keyframe_interval_s = 2.0;      // ... or this long
-  double keyframe_voxel_m = 0.05;        // points of a keyframe are thinned to one per voxel
-  double min_range_m = 0.4, max_range_m = 60.0;
-  double plane_sigma_m = 0.03;           // expected spread of points about a wall; the inlier band is 3 sigma
-  int min_segment_points = 50;
-  double min_segment_extent_m = 0.4;
-  double merge_distance_m = 0.10;        // same surface: within this at both ends of the overlap, ...
-  double merge_angle_rad = 0.10;         // ... and this in direction, ...
-  double merge_gap_m = 0.5;              // ... and no further apart along the wall
-  [[nodiscard]] std::string Check() const;  // empty, or the field, its value and the rule
-};
-
+// Scans are gathered in a window that opens at a keyframe's pose and closes when the robot has moved on; the closed window is the keyframe.
+// A robot that stands still makes no further keyframes. Memory grows with the number of keyframes (points, and 130 bytes per surface seen)
+// and with the area of the building (cells), not with the number of scans.
 class Mapper {
  public:
   explicit Mapper(const MapperOptions& options = {});
 
   // Adds one deskewed scan, points in the lidar frame at its stamp. True if it closed a keyframe, i.e. the graph has grown.
   bool AddScan(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar);
+  // Makes a keyframe of what AddScan() has gathered since the last one, at a recording's end. True if the graph has grown.
+  bool Flush();
 
   // From odometry's frame to the map's; changes when the optimizer moves keyframes.
   [[nodiscard]] const Eigen::Isometry3d& T_map_odom() const { return T_map_odom_; }
@@ -37,13 +32,21 @@ class Mapper {
   [[nodiscard]] SGraph& mutable_graph() { return graph_; }
 
   // After keyframe poses in mutable_graph() were changed: recomputes surface planes and extents, merges what now coincides,
-  // and takes T_map_odom from the newest keyframe.
+  // and takes T_map_odom from the newest keyframe. O(observations + surfaces^2).
   void OnPosesChanged();
 
  private:
+  [[nodiscard]] bool WindowIsFull(double stamp_s, const Eigen::Isometry3d& T_odom_lidar) const;
+  bool CloseWindow();
+  void AddSegment(const Segment& segment, const Keyframe& keyframe);
+  void Empty(size_t i);
+  void MergeDuplicates();
+
   MapperOptions options_;
   SGraph graph_;
   Eigen::Isometry3d T_map_odom_ = Eigen::Isometry3d::Identity();
+  std::vector<SurfaceTrack> tracks_;  // of each surface
+  std::optional<KeyframeWindow> window_;
 };
 
 }  // namespace plumb::runtime

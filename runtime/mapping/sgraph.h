@@ -43,9 +43,8 @@ enum class SurfaceKind : uint8_t { kWall, kFloor, kCeiling };
 struct Segment {
   SurfaceKind kind = SurfaceKind::kWall;
   Plane plane;
-  PlaneStats stats;
-  // In-plane bounds about the plane's foot of the centroid: u is horizontal (z x n) for walls, x for floors; v completes (u, v, n).
-  std::vector<Eigen::Vector3f> points;  // inliers (kept only until the segment is in the map)
+  PlaneStats stats;                    // of all points in the band about the plane, not only of the thinned ones
+  std::vector<Eigen::Vector3f> cells;  // mean point of every occupied 0.1 m x 0.1 m cell
 };
 
 struct Observation {
@@ -60,10 +59,12 @@ struct MapSurface {
   Plane plane;  // map frame, current estimate
   std::vector<Observation> observations;
   double num_points = 0;
-  // Extent, map frame. Walls: the footprint from `start` to `end` as in plumb::Surface (free space to the left), and the height band.
+  // Extent, map frame, to about 5 cm. Walls: the footprint from `start` to `end` as in plumb::Surface (free space to the left), and the height
+  // band. Floors and ceilings: lowest and highest x and y; the heights are both that of the centroid.
   Eigen::Vector2d start = Eigen::Vector2d::Zero(), end = Eigen::Vector2d::Zero();
   double z_min_m = 0, z_max_m = 0;
-  // Cells of 0.1 m x 0.1 m of the surface that hold points: what was really seen of it. area_m2 = 0.01 * number of cells.
+  // Cells of 0.1 m x 0.1 m of the surface that hold points: what was really seen of it. area_m2 = 0.01 * number of cells. Kept once per
+  // surface, fixed to the first keyframe that saw it: when poses change, all cells follow that keyframe.
   double area_m2 = 0;
 
   [[nodiscard]] double length_m() const { return (end - start).norm(); }

@@ -27,6 +27,10 @@ struct MatcherOptions {
   double accept_margin_nats = 10.0;
   double accept_sigma_xy_m = 0.10;
   double accept_sigma_yaw_rad = 0.0087;
+  int accept_min_planes = 5;                  // of the plan's walls that the map agrees with; one more for 4 rooms, two for 32, ...
+  double accept_min_consistent_ratio = 0.35;  // of the map's wall length; the rest may be furniture and deviated walls
+  double accept_max_through_ratio = 0.02;     // of the rays: may pass through walls of the plan
+  double accept_scale_error = 0.02;           // the building's size against the plan's, with two sigmas
   [[nodiscard]] std::string Check() const;
 };
 
@@ -35,7 +39,11 @@ struct Hypothesis {
   StoreyId storey;
   double log_likelihood = 0;  // relative to "outside the plan"
   double probability = 0;
-  double sigma_xy_m = 0, sigma_yaw_rad = 0;
+  double sigma_xy_m = 0, sigma_yaw_rad = 0;  // of the map's middle in the plan
+  // What speaks for it and against it: planes of the plan that agree, their share of the map's walls, shares of the rays that ended on what the
+  // plan has there and that went through planned walls.
+  int consistent_planes = 0;
+  double consistent_ratio = 0, explained_ratio = 0, through_ratio = 0;
 };
 
 struct MatchResult {

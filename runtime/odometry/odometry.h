@@ -1,4 +1,7 @@
-// LiDAR odometry: deskew, then point-to-plane registration against a voxel map of what was seen before.
+// LiDAR odometry: deskew and point-to-plane registration, in one, against a voxel map of what was seen before.
+//
+// The poses at a sweep's start and end are estimated together (registration.h), so turning and braking within a sweep are measured, not
+// assumed. The map keeps everything up to max_voxels: a robot that comes back is where it was. The first scan levels the frame (leveling.h).
 #pragma once
 
 #include <Eigen/Geometry>
@@ -11,17 +14,20 @@
 namespace plumb::runtime {
 
 struct OdometryOptions {
-  double voxel_m = 0.5;             // edge of the map's voxels; each keeps a Gaussian of its points
-  double scan_voxel_m = 0.1;        // scans are thinned to one point per voxel before registration
+  double voxel_m = 0.5;             // edge of the map's voxels; each keeps Gaussians of the surfaces in it
+  double scan_spacing_m = 0.1;      // scans are thinned to about this distance between points before registration
+  double range_sigma_m = 0.02;      // noise of a single return
   double min_range_m = 0.4, max_range_m = 80.0;
   int max_iterations = 20;
-  [[nodiscard]] std::string Check() const;
+  int max_voxels = 400000;          // of the map; beyond, the voxels unseen for longest are forgotten (about 1 kB each)
+  [[nodiscard]] std::string Check() const;  // empty, or the field, its value and the rule
 };
 
 struct OdometryResult {
   bool ok = false;               // false: pose is a prediction only
-  Eigen::Isometry3d T_odom_lidar = Eigen::Isometry3d::Identity();  // at the scan's stamp; odom: z up (gravity from the floor or the first pose)
-  Scan deskewed;                 // points in the lidar frame at the scan's stamp; time_s empty
+  // At the scan's stamp. odom: origin and yaw of the first scan, z up (from floor, ceiling or walls in the first scan, else its own z axis).
+  Eigen::Isometry3d T_odom_lidar = Eigen::Isometry3d::Identity();
+  Scan deskewed;                 // finite points in range, in the lidar frame at the scan's stamp; time_s empty
   int iterations = 0;
   int num_inliers = 0;
   double rms_m = 0;              // of inlier point-to-plane residuals
@@ -32,7 +38,8 @@ class Odometry {
   explicit Odometry(const OdometryOptions& options = {});
   ~Odometry();
 
-  // Registers the next scan. `given`: pose of the lidar in a given odometry's own frame at (scan start, scan end), used as a prior for the motion.
+  // Registers the next scan. `given`: pose of the lidar in a given odometry's own frame at (scan start, scan end), used as a prior for the
+  // motion; the planes seen decide where they can. Never fails: a scan without enough points on the map gets the predicted pose.
   struct GivenMotion { Eigen::Isometry3d T_start, T_end; };
   [[nodiscard]] OdometryResult Register(const Scan& scan, const std::optional<GivenMotion>& given);
 

@@ -28,13 +28,16 @@ struct StampedPose {
 };
 using Trajectory = std::vector<StampedPose>;  // stamps ascending
 
-// TUM text: `t x y z qx qy qz qw`, # comments. Errors: kFileNotFound, kBadTrajectory (line named).
+// TUM text: `t x y z qx qy qz qw`, # comments; of two poses at one time the later counts.
+// Errors: kFileNotFound, kBadTrajectory (line named).
 [[nodiscard]] Expected<Trajectory> ReadTum(const std::string& path);
 [[nodiscard]] std::string WriteTum(const Trajectory& trajectory);
 // Linear in translation, slerp in rotation; none outside the trajectory's span or in gaps above max_gap_s.
 [[nodiscard]] std::optional<Eigen::Isometry3d> InterpolatePose(const Trajectory& trajectory, double stamp_s, double max_gap_s = 0.5);
 
-// PCD v0.7, binary, binary_compressed or ascii; fields by name and type (x y z; intensity; ring; time, t, timestamp).
+// PCD v0.7, binary, binary_compressed or ascii; fields by name, whatever their type: x y z; intensity; ring; time, t, timestamp
+// or offset_time (unit and zero: point_time.h). Safe on hostile files: never allocates more than the file's own size calls for.
+// Errors: kFileNotFound, kFileUnreadable, kFileTooLarge (1 GiB), kBadScan. O(points).
 [[nodiscard]] Expected<Scan> ReadPcd(const std::string& path, double stamp_s);
 // Binary PCD with x y z intensity ring time. Fields that the scan lacks are left out.
 [[nodiscard]] Expected<void> WritePcd(const Scan& scan, const std::string& path);

@@ -6,9 +6,11 @@
 namespace plumb::test {
 namespace {
 
-constexpr double kHeight_m = 2.6, kDoorHeight_m = 2.1, kOuter_m = 0.30, kInner_m = 0.12, kDoorWidth_m = 0.9;
+constexpr double kHeight_m = kHouseHeight_m, kDoorHeight_m = 2.1, kOuter_m = 0.30, kInner_m = 0.12, kDoorWidth_m = 0.9;
 
-uint32_t AddElement(AGraph& g, const std::string& guid, ElementKind kind, WallId wall = {}, DoorwayId doorway = {}) {
+}  // namespace
+
+uint32_t AddElement(AGraph& g, const std::string& guid, ElementKind kind, WallId wall, DoorwayId doorway) {
   Element e;
   e.guid = guid;
   e.name = guid;
@@ -21,12 +23,7 @@ uint32_t AddElement(AGraph& g, const std::string& guid, ElementKind kind, WallId
   return static_cast<uint32_t>(g.elements.size() - 1);
 }
 
-struct Gap {
-  double from, to;  // along the wall's long axis
-};
-
-// A wall as an axis-aligned box from lo to hi, with door-high gaps.
-WallId AddWall(AGraph& g, const std::string& guid, Eigen::Vector2d lo, Eigen::Vector2d hi, const std::vector<Gap>& gaps = {}) {
+WallId AddWall(AGraph& g, const std::string& guid, Eigen::Vector2d lo, Eigen::Vector2d hi, const std::vector<Gap>& gaps) {
   const int axis = (hi - lo).x() >= (hi - lo).y() ? 0 : 1;
   Wall w;
   w.guid = w.name = guid;
@@ -72,7 +69,6 @@ SurfaceId AddSurface(AGraph& g, WallId wall, RoomId room, Eigen::Vector2d start,
   return SurfaceId(g.surfaces.size() - 1);
 }
 
-// A rectangular room; walls in the order south, east, north, west.
 void AddRoom(AGraph& g, const std::string& name, Eigen::Vector2d lo, Eigen::Vector2d hi, const std::vector<WallId>& walls) {
   Room r;
   r.name = name;
@@ -102,8 +98,6 @@ void AddDoorway(AGraph& g, const std::string& name, WallId wall, RoomId a, RoomI
   d.has_leaf = leaf;
   g.doorways.push_back(d);
 }
-
-}  // namespace
 
 void AddBox(AGraph& g, const Eigen::Vector3d& lo, const Eigen::Vector3d& hi, uint32_t element) {
   const auto base = static_cast<uint32_t>(g.mesh.vertices.size());

@@ -1,0 +1,73 @@
+#include "compiler/compile.h"
+
+#include <fmt/format.h>
+
+#include <exception>
+
+#include "compiler/emit/emit.h"
+#include "compiler/frontends/ifc/ifc_frontend.h"
+#include "compiler/passes/build_agraph.h"
+#include "compiler/source/source.h"
+#include "compiler/validate.h"
+
+namespace plumb::compiler {
+namespace {
+
+PassOptions PassOptionsFrom(const CompileOptions& options) {
+  PassOptions out;
+  out.section_height_m = options.section_height_m;
+  out.verify = options.verify_stages;
+  out.planar_map.snap_radius_m = options.snap_radius_m;
+  out.rooms.min_area_m2 = options.min_room_area_m2;
+  return out;
+}
+
+// As they stand in the file: what the result depends on.
+std::vector<Option> Recorded(const CompileOptions& options) {
+  return {{"section_height_m", fmt::format("{}", options.section_height_m)},
+          {"snap_radius_m", fmt::format("{}", options.snap_radius_m)},
+          {"min_room_area_m2", fmt::format("{}", options.min_room_area_m2)}};
+}
+
+std::optional<PlanIr> ReadPlan(const std::string& path, DiagnosticSink& sink) {
+  const std::optional<Source> source = LoadSource(path, sink);
+  if (!source || !IsSupported(*source, sink)) return std::nullopt;
+  return ReadIfc(*source, sink);
+}
+
+std::optional<AGraph> Run(const std::string& path, const CompileOptions& options, DiagnosticSink& sink) {
+  std::optional<PlanIr> plan = ReadPlan(path, sink);
+  if (!plan) return std::nullopt;
+  std::optional<Built> built = BuildAGraph(*plan, PassOptionsFrom(options), sink);
+  if (!built) return std::nullopt;
+  AGraph graph = std::move(built->graph);
+  EmitMesh(*plan, graph);
+  MoveToPlanFrame(*plan, graph);
+  for (const Diagnostic& d : ValidateGraph(graph)) sink.Emit(d.kind, d.location, d.message, d.hint);
+  EmitProvenance(*plan, Recorded(options), sink, graph);
+  return graph;
+}
+
+}  // namespace
+
+std::string CompileOptions::Check() const {
+  if (!(section_height_m > 0 && section_height_m < 10))
+    return fmt::format("CompileOptions.section_height_m = {}; must be in (0, 10)", section_height_m);
+  if (!(snap_radius_m > 0 && snap_radius_m <= 0.05))
+    return fmt::format("CompileOptions.snap_radius_m = {}; must be in (0, 0.05]", snap_radius_m);
+  if (!(min_room_area_m2 >= 0)) return fmt::format("CompileOptions.min_room_area_m2 = {}; must not be negative", min_room_area_m2);
+  return {};
+}
+
+CompileResult Compile(const std::string& path, const CompileOptions& options) {
+  CompileResult out;
+  try {
+    out.graph = Run(path, options, out.diagnostics);
+  } catch (const std::exception& e) {
+    out.graph.reset();
+    out.diagnostics.Emit(DiagnosticKind::kInternalError, {}, fmt::format("the compiler failed: {}", e.what()));
+  }
+  return out;
+}
+
+}  // namespace plumb::compiler

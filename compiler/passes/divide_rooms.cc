@@ -1,0 +1,142 @@
+#include "compiler/passes/divide_rooms.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "compiler/passes/polygon.h"
+#include "compiler/passes/section.h"
+
+namespace plumb::compiler {
+namespace {
+
+constexpr double kCollinear_m = 0.0015;  // as for room corners
+
+struct Outline {
+  uint32_t space;
+  std::vector<Ring> rings;
+  double area_m2;
+  double free_m2;  // without what lies under walls: some are drawn to the middle of the walls
+};
+
+double FreeArea(const std::vector<Ring>& rings, double area_m2, const Floor& floor) {
+  const Eigen::AlignedBox2d box = BoundingBox(rings);
+  std::vector<Ring> walls;
+  for (const Footprint& f : floor.footprints) {
+    if (f.bounds_rooms && box.intersects(BoundingBox(f.rings))) walls.insert(walls.end(), f.rings.begin(), f.rings.end());
+  }
+  return area_m2 - OverlapArea(rings, walls);
+}
+
+// Of the spaces within the face those that do not overlap: smaller ones first, so that zones of several spaces drop out.
+std::vector<Outline> PartsOf(const std::vector<Ring>& face, const std::vector<Outline>& outlines, const DivideOptions& options) {
+  std::vector<Outline> inside;
+  const Eigen::AlignedBox2d box = BoundingBox(face);
+  for (const Outline& o : outlines) {
+    if (o.area_m2 < options.min_area_m2 || !box.intersects(BoundingBox(o.rings))) continue;
+    if (OverlapArea(face, o.rings) >= options.min_inside_share * o.free_m2) inside.push_back(o);
+  }
+  std::stable_sort(inside.begin(), inside.end(), [](const Outline& a, const Outline& b) { return a.area_m2 < b.area_m2; });
+  std::vector<Outline> out;
+  for (Outline& o : inside) {
+    const bool zone = std::any_of(out.begin(), out.end(), [&](const Outline& part) {
+      return OverlapArea(part.rings, o.rings) > options.max_overlap_share * part.area_m2;
+    });
+    if (!zone) out.push_back(std::move(o));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string DivideOptions::Check() const {
+  if (!(min_inside_share > 0.5 && min_inside_share <= 1))
+    return fmt::format("DivideOptions.min_inside_share = {}; must be in (0.5, 1]", min_inside_share);
+  if (!(max_overlap_share >= 0 && max_overlap_share < 1))
+    return fmt::format("DivideOptions.max_overlap_share = {}; must be in [0, 1)", max_overlap_share);
+  if (!(min_area_m2 >= 0)) return fmt::format("DivideOptions.min_area_m2 = {}; must not be negative", min_area_m2);
+  return {};
+}
+
+std::vector<Ring> SpaceOutline(const PlanSpace& space, const Floor& floor) {
+  std::vector<Ring> out;
+  const Eigen::AlignedBox3d box = Bounds(space.body);
+  if (box.isEmpty()) return out;
+  std::vector<double> heights;
+  for (double z : floor.cut_heights_m) {
+    if (box.min().z() < z && z <= box.max().z()) heights.push_back(z);
+  }
+  if (heights.empty()) heights.push_back(box.center().z());
+  for (double z : heights) {
+    for (Ring& ring : CutSolid(space.body, z).rings) out.push_back(std::move(ring));
+  }
+  return out;
+}
+
+size_t FloorOfStorey(const FloorIr& floors, uint32_t storey) {
+  for (size_t f = 0; f < floors.floors.size(); ++f) {
+    if (storey <= floors.floors[f].level.last_storey) return f;
+  }
+  return floors.floors.size() - 1;
+}
+
+Expected<void> DivideRooms(const PlanIr& plan, const DivideOptions& options, const PlanarMapOptions& map_options, FloorIr& floors,
+                           DiagnosticSink& sink) {
+  std::vector<std::vector<Outline>> outlines(floors.floors.size());
+  for (uint32_t s = 0; s < plan.spaces.size(); ++s) {
+    const size_t f = FloorOfStorey(floors, plan.spaces[s].storey);
+    std::vector<Ring> rings = SpaceOutline(plan.spaces[s], floors.floors[f]);
+    const double area = RegionArea(rings), free = FreeArea(rings, area, floors.floors[f]);
+    outlines[f].push_back({s, std::move(rings), area, free});
+  }
+  for (size_t f = 0; f < floors.floors.size(); ++f) {
+    Floor& floor = floors.floors[f];
+    for (const FloorFace& face : floor.faces) {
+      if (!face.bounded() || !face.cover.empty()) continue;
+      std::vector<Outline> parts = PartsOf(FaceRings(floor, face), outlines[f], options);
+      if (parts.size() < 2) continue;
+      for (Outline& part : parts) {
+        const PlanSpace& space = plan.spaces[part.space];
+        sink.Emit(DiagnosticKind::kSpaceWithinRoom, space.location,
+                  fmt::format("no walls divide space `{}` ({:.2f} m2) from the rest of an open plan of {:.2f} m2; its own outline does",
+                              space.name, part.area_m2, face.area_m2));
+        floor.dividers.push_back({part.space, std::move(part.rings)});
+      }
+    }
+    if (floor.dividers.empty()) continue;
+    if (Expected<void> ok = BuildPlanarMap(floor, map_options); !ok) return ok;
+  }
+  return {};
+}
+
+void AddOpenBoundaries(const FloorIr& floors, const std::vector<std::vector<RoomId>>& rooms_by_face, AGraph& graph) {
+  for (size_t f = 0; f < floors.floors.size(); ++f) {
+    const Floor& floor = floors.floors[f];
+    for (size_t i = 1; i < floor.faces.size(); ++i) {
+      const RoomId room = rooms_by_face[f][i];
+      std::vector<std::vector<BoundaryEdge>> rings = floor.faces[i].holes;
+      rings.push_back(floor.faces[i].outer);
+      for (const auto& ring : rings) {
+        bool extends = false;
+        for (const BoundaryEdge& edge : ring) {
+          const RoomId other = rooms_by_face[f][edge.face];
+          // Each line once, from the room with the lower id.
+          if (!edge.footprints.empty() || !room.valid() || !other.valid() || other <= room) {
+            extends = false;
+            continue;
+          }
+          const Eigen::Vector2d &from = floor.vertices[edge.from], &to = floor.vertices[edge.to];
+          if (extends && graph.open_boundaries.back().room_b == other &&
+              DistanceToSegment(from, graph.open_boundaries.back().start, to) <= kCollinear_m) {
+            graph.open_boundaries.back().end = to;
+          } else {
+            graph.open_boundaries.push_back({graph.rooms[room.index()].storey, room, other, from, to});
+          }
+          extends = true;
+        }
+      }
+    }
+  }
+}
+
+}  // namespace plumb::compiler

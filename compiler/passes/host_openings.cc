@@ -1,0 +1,313 @@
+#include "compiler/passes/host_openings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+
+#include "compiler/passes/assign_storeys.h"
+#include "compiler/passes/polygon.h"
+#include "compiler/passes/section.h"
+
+namespace plumb::compiler {
+namespace {
+
+constexpr double kThroughShare = 0.85;  // a void that takes less of the wall's thickness is a niche
+
+bool IsFilling(const PlanElement& e) { return e.kind == ElementKind::kDoor || e.kind == ElementKind::kWindow; }
+
+// An opening or a free door or window before it has a host.
+struct Candidate {
+  uint32_t opening = kNoIndex;
+  std::vector<uint32_t> fillings;
+  uint32_t wall = kNoIndex;
+  std::vector<Eigen::Vector3d> points;  // of the void, else of the fillings
+  Eigen::AlignedBox3d box;
+  bool has_void = false;
+};
+
+class Host {
+ public:
+  Host(const PlanIr& plan, const FloorIr& floors, const HostingOptions& options, const AGraph& graph, DiagnosticSink& sink)
+      : plan_(plan), floors_(floors), options_(options), graph_(graph), sink_(sink) {
+    for (uint32_t w = 0; w < floors.walls.size(); ++w) {
+      for (uint32_t e : floors.walls[w].elements) wall_of_element_[e] = w;
+    }
+    for (const Floor& floor : floors.floors) levels_.push_back(floor.level);
+    for (uint32_t e = 0; e < plan.elements.size(); ++e) {
+      if (IsFilling(plan.elements[e]) && !plan.elements[e].guid.empty()) fillings_by_guid_[plan.elements[e].guid].push_back(e);
+    }
+  }
+
+  std::vector<HostedOpening> Run() {
+    CollectCandidates();
+    PairLooseFillings();
+    std::vector<HostedOpening> out;
+    for (const Candidate& c : candidates_) {
+      if (std::optional<HostedOpening> hosted = Place(c)) out.push_back(std::move(*hosted));
+    }
+    return out;
+  }
+
+ private:
+  // The element and the others of its guid (panes).
+  std::vector<uint32_t> WithPanes(uint32_t element) const {
+    const auto it = fillings_by_guid_.find(plan_.elements[element].guid);
+    return it == fillings_by_guid_.end() ? std::vector<uint32_t>{element} : it->second;
+  }
+
+  void CollectCandidates() {
+    std::set<uint32_t> taken;
+    for (uint32_t i = 0; i < plan_.openings.size(); ++i) {
+      const PlanOpening& o = plan_.openings[i];
+      Candidate c;
+      c.opening = i;
+      if (const auto it = wall_of_element_.find(o.wall); it != wall_of_element_.end()) c.wall = it->second;
+      if (o.filling != kNoIndex && IsFilling(plan_.elements[o.filling])) c.fillings = WithPanes(o.filling);
+      taken.insert(c.fillings.begin(), c.fillings.end());
+      // An opening in a slab, a roof or a wall without solid.
+      if (o.wall != kNoIndex && c.wall == kNoIndex && IsKnownAsNoWall(o.wall)) continue;
+      if (o.wall == kNoIndex && c.fillings.empty()) continue;
+      AddCandidate(std::move(c));
+    }
+    for (uint32_t e = 0; e < plan_.elements.size(); ++e) {
+      if (!IsFilling(plan_.elements[e]) || taken.contains(e)) continue;
+      Candidate c;
+      c.fillings = WithPanes(e);
+      taken.insert(c.fillings.begin(), c.fillings.end());
+      AddCandidate(std::move(c));
+    }
+  }
+
+  bool IsKnownAsNoWall(uint32_t element) const {
+    const ElementKind kind = plan_.elements[element].kind;
+    return kind != ElementKind::kWall && kind != ElementKind::kCurtainWall && kind != ElementKind::kProxy;
+  }
+
+  void AddCandidate(Candidate c) {
+    if (c.opening != kNoIndex) c.points = plan_.openings[c.opening].body.vertices;
+    c.has_void = !c.points.empty();
+    for (uint32_t e : c.fillings) {
+      if (!c.has_void) c.points.insert(c.points.end(), plan_.elements[e].body.vertices.begin(), plan_.elements[e].body.vertices.end());
+    }
+    for (const auto& p : c.points) c.box.extend(p);
+    if (c.points.empty()) {
+      const SourceLocation& where = LocationOf(c);
+      sink_.Emit(DiagnosticKind::kOpeningNotPlaced, where, fmt::format("{} has no solid to place it by; it is left out", where.ToString()));
+      return;
+    }
+    candidates_.push_back(std::move(c));
+  }
+
+  const SourceLocation& LocationOf(const Candidate& c) const {
+    return c.fillings.empty() ? plan_.openings[c.opening].location : plan_.elements[c.fillings[0]].location;
+  }
+
+  // A door that the source ties to no wall, standing in an unfilled opening of one, fills it.
+  void PairLooseFillings() {
+    for (size_t i = 0; i < candidates_.size(); ++i) {
+      Candidate& loose = candidates_[i];
+      if (loose.has_void || loose.fillings.empty() || loose.wall != kNoIndex) continue;
+      Candidate* best = nullptr;
+      double best_m = options_.max_filling_offset_m;
+      for (Candidate& c : candidates_) {
+        if (!c.has_void || !c.fillings.empty() || c.wall == kNoIndex) continue;
+        const double offset = (c.box.center() - loose.box.center()).norm();
+        if (offset >= best_m) continue;
+        best = &c;
+        best_m = offset;
+      }
+      if (best == nullptr) continue;
+      best->fillings = loose.fillings;
+      if (loose.opening != kNoIndex) best->opening = Merged(best->opening, loose.opening);
+      loose.points.clear();  // spent
+    }
+  }
+
+  // The one with the stated width speaks for both.
+  uint32_t Merged(uint32_t of_void, uint32_t of_filling) const { return plan_.openings[of_filling].width_m ? of_filling : of_void; }
+
+  std::optional<HostedOpening> Place(const Candidate& c) {
+    if (c.points.empty()) return std::nullopt;
+    HostedOpening out;
+    out.opening = c.opening;
+    out.fillings = c.fillings;
+    if (!c.fillings.empty()) out.use = plan_.elements[c.fillings[0]].kind == ElementKind::kDoor ? OpeningUse::kDoor : OpeningUse::kWindow;
+    out.z_min_m = c.box.min().z();
+    out.z_max_m = c.box.max().z();
+    out.floor = LevelAt(levels_, out.z_min_m, options_.storey_slack_m);
+    out.storey = StoreyOf(c, levels_[out.floor], out.z_min_m);
+    out.center = c.box.center().head<2>();
+    const bool stated = c.wall != kNoIndex && Meets(out.center, c.wall, out.floor);
+    if (c.wall != kNoIndex && !stated && out.use == OpeningUse::kUnfilled) return std::nullopt;
+    const uint32_t wall = stated ? c.wall : NearestWall(out);
+    if (wall == kNoIndex) {
+      if (out.use == OpeningUse::kUnfilled) return std::nullopt;
+      const SourceLocation& where = LocationOf(c);
+      sink_.Emit(
+          DiagnosticKind::kOpeningWithoutWall, where,
+          fmt::format("no wall within {:.2f} m of {}; doors and windows stand in walls", options_.max_host_distance_m, where.ToString()));
+      AlignToSelf(c, out);
+      return out;
+    }
+    out.wall = WallId(wall);
+    AlignToWall(c, out);
+    return out;
+  }
+
+  StoreyId StoreyOf(const Candidate& c, const Level& level, double z_min_m) const {
+    if (!c.fillings.empty()) {
+      const uint32_t stated = plan_.elements[c.fillings[0]].storey;
+      if (stated >= level.first_storey && stated <= level.last_storey) return StoreyId(stated);
+    }
+    uint32_t best = level.first_storey;
+    for (uint32_t s = level.first_storey; s <= level.last_storey; ++s) {
+      if (plan_.storeys[s].elevation_m <= z_min_m + options_.storey_slack_m) best = s;
+    }
+    return StoreyId(best);
+  }
+
+  // The wall's footprint on the given floor, else on any.
+  const Footprint* FootprintOf(uint32_t wall, size_t floor) const {
+    const Footprint* any = nullptr;
+    for (size_t f = 0; f < floors_.floors.size(); ++f) {
+      for (const Footprint& footprint : floors_.floors[f].footprints) {
+        if (footprint.wall != wall) continue;
+        if (f == floor) return &footprint;
+        if (any == nullptr) any = &footprint;
+      }
+    }
+    return any;
+  }
+
+  // Whether the wall that the source states is anywhere near.
+  bool Meets(const Eigen::Vector2d& center, uint32_t wall, size_t floor) const {
+    const Footprint* footprint = FootprintOf(wall, floor);
+    if (footprint == nullptr) return true;
+    return WindingNumber(footprint->rings, center) != 0 || DistanceToRings(center, footprint->rings) <= options_.max_host_distance_m;
+  }
+
+  uint32_t NearestWall(const HostedOpening& o) const {
+    uint32_t best = kNoIndex;
+    double best_m = options_.max_host_distance_m;
+    for (const Footprint& f : floors_.floors[o.floor].footprints) {
+      if (f.wall == kNoIndex || floors_.walls[f.wall].z_max_m <= o.z_min_m || floors_.walls[f.wall].z_min_m >= o.z_max_m) continue;
+      const double distance = WindingNumber(f.rings, o.center) != 0 ? 0 : DistanceToRings(o.center, f.rings);
+      if (distance > best_m || (distance == best_m && best != kNoIndex)) continue;
+      best = f.wall;
+      best_m = distance;
+    }
+    return best;
+  }
+
+  void AlignToSelf(const Candidate& c, HostedOpening& out) const {
+    std::vector<Eigen::Vector2d> points;
+    for (const auto& p : c.points) points.push_back(p.head<2>());
+    const Ring box = LeastRectangle(std::move(points));
+    if (box.size() < 4) return;
+    const Eigen::Vector2d u = box[1] - box[0], v = box[2] - box[1];
+    out.along = (u.norm() >= v.norm() ? u : v).normalized();
+    out.width_m = std::max(u.norm(), v.norm());
+    out.depth_m = std::min(u.norm(), v.norm());
+    out.center = 0.5 * (box[0] + box[2]);
+  }
+
+  Eigen::Vector2d DirectionAt(uint32_t w, const std::vector<Ring>& rings, const Eigen::Vector2d& p) const {
+    const Wall& wall = graph_.walls[w];
+    const Eigen::Vector2d axis = wall.axis_end - wall.axis_start;
+    const double off_axis = axis.norm() > 0 ? std::abs(Cross(axis.normalized(), p - wall.axis_start)) : 0;
+    const bool curved = !plan_.elements[floors_.walls[w].elements[0]].arcs.empty() || off_axis > wall.thickness_m;
+    if (!curved && axis.norm() > 0) return axis.normalized();
+    // Bent walls: the direction of the side next to it.
+    double best_m = std::numeric_limits<double>::infinity();
+    Eigen::Vector2d best = axis.norm() > 0 ? Eigen::Vector2d(axis.normalized()) : Eigen::Vector2d::UnitX();
+    for (const Ring& ring : rings) {
+      for (size_t i = 0; i < ring.size(); ++i) {
+        const Eigen::Vector2d &a = ring[i], &b = ring[(i + 1) % ring.size()];
+        const double distance = DistanceToSegment(p, a, b);
+        if (distance >= best_m - 1e-6) continue;
+        best_m = distance;
+        best = (b - a).normalized();
+      }
+    }
+    return best;
+  }
+
+  void AlignToWall(const Candidate& c, HostedOpening& out) const {
+    const uint32_t w = out.wall.value;
+    const Footprint* footprint = FootprintOf(w, out.floor);
+    const std::vector<Ring> rings = footprint != nullptr ? footprint->rings : std::vector<Ring>{};
+    out.along = DirectionAt(w, rings, out.center);
+    const Eigen::Vector2d across = Rot90Ccw(out.along);
+    Eigen::AlignedBox2d extent;
+    for (const auto& p : c.points) extent.extend(Eigen::Vector2d(out.along.dot(p.head<2>()), across.dot(p.head<2>())));
+    out.width_m = extent.sizes().x();
+    const Wall& wall = graph_.walls[w];
+    const double u = extent.center().x();
+    // The wall's piece at this place: the interval of the line across it next to the opening.
+    const Eigen::Vector2d at = u * out.along + extent.center().y() * across;
+    const auto [lo, hi] = SolidInterval(rings, at, across, wall);
+    out.center = at + 0.5 * (lo + hi) * across;
+    out.depth_m = hi - lo;
+    const double half = 0.5 * extent.sizes().y();
+    const double taken = std::min(hi, half) - std::max(lo, -half);
+    out.through = out.use != OpeningUse::kUnfilled || taken >= kThroughShare * out.depth_m;
+  }
+
+  // Where the line at + t * across runs inside the rings, the interval nearest to t = 0. Falls back to the wall's axis and thickness.
+  static std::pair<double, double> SolidInterval(const std::vector<Ring>& rings, const Eigen::Vector2d& at, const Eigen::Vector2d& across,
+                                                 const Wall& wall) {
+    std::vector<std::pair<double, int>> crossings;
+    for (const Ring& ring : rings) {
+      for (size_t i = 0; i < ring.size(); ++i) {
+        const Eigen::Vector2d p = ring[i] - at, q = ring[(i + 1) % ring.size()] - at;
+        const double sp = Cross(across, p), sq = Cross(across, q);
+        if ((sp <= 0) == (sq <= 0)) continue;
+        crossings.emplace_back(across.dot(p + (q - p) * (sp / (sp - sq))), sp > 0 ? 1 : -1);
+      }
+    }
+    std::sort(crossings.begin(), crossings.end());
+    std::optional<std::pair<double, double>> best;
+    int winding = 0;
+    double begin = 0;
+    const auto distance = [](const std::pair<double, double>& i) { return std::max({0.0, i.first, -i.second}); };
+    for (const auto& [t, step] : crossings) {
+      if (winding == 0) begin = t;
+      winding += step;
+      if (winding == 0 && (!best || distance({begin, t}) < distance(*best))) best = {begin, t};
+    }
+    if (best) return *best;
+    const double offset = across.dot(wall.axis_start - at);
+    return {offset - 0.5 * wall.thickness_m, offset + 0.5 * wall.thickness_m};
+  }
+
+  const PlanIr& plan_;
+  const FloorIr& floors_;
+  const HostingOptions& options_;
+  const AGraph& graph_;
+  DiagnosticSink& sink_;
+  std::map<uint32_t, uint32_t> wall_of_element_;
+  std::map<std::string, std::vector<uint32_t>> fillings_by_guid_;
+  std::vector<Level> levels_;
+  std::vector<Candidate> candidates_;
+};
+
+}  // namespace
+
+std::string HostingOptions::Check() const {
+  if (!(max_host_distance_m > 0)) return fmt::format("HostingOptions.max_host_distance_m = {}; must be positive", max_host_distance_m);
+  if (!(max_filling_offset_m > 0)) return fmt::format("HostingOptions.max_filling_offset_m = {}; must be positive", max_filling_offset_m);
+  if (!(storey_slack_m >= 0)) return fmt::format("HostingOptions.storey_slack_m = {}; must not be negative", storey_slack_m);
+  return {};
+}
+
+std::vector<HostedOpening> HostOpenings(const PlanIr& plan, const FloorIr& floors, const HostingOptions& options, const AGraph& graph,
+                                        DiagnosticSink& sink) {
+  return Host(plan, floors, options, graph, sink).Run();
+}
+
+}  // namespace plumb::compiler

@@ -1,0 +1,353 @@
+#include "compiler/passes/planar_map.h"
+
+#include <CGAL/Arr_consolidated_curve_data_traits_2.h>
+#include <CGAL/Arr_extended_dcel.h>
+#include <CGAL/Arr_segment_traits_2.h>
+#include <CGAL/Arrangement_2.h>
+#include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <map>
+#include <set>
+
+#include "compiler/passes/polygon.h"
+#include "compiler/passes/snap.h"
+
+namespace plumb::compiler {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
+using Traits = CGAL::Arr_consolidated_curve_data_traits_2<CGAL::Arr_segment_traits_2<Kernel>, uint32_t>;  // data: index of the SnapSegment
+
+// Winding number per outline: of footprints by their index, then of dividers. Those with 0 are left out.
+using Windings = std::map<uint32_t, int>;
+
+struct FaceLabel {
+  Windings windings;
+  uint32_t index = kNoIndex;   // in Floor::faces
+  uint32_t region = kNoIndex;  // free faces that no wall divides have the same
+  uint32_t space = kNoIndex;   // divider that the face belongs to
+};
+
+using Arrangement = CGAL::Arrangement_2<Traits, CGAL::Arr_extended_dcel<Traits, uint32_t, char, FaceLabel>>;
+using Halfedge = Arrangement::Halfedge_const_handle;
+
+SnapGraph OutlinesOf(const Floor& floor) {
+  SnapGraph graph;
+  const auto append = [&graph](const std::vector<Ring>& rings, size_t outline) {
+    for (const Ring& ring : rings) {
+      const auto first = static_cast<uint32_t>(graph.vertices.size()), size = static_cast<uint32_t>(ring.size());
+      graph.vertices.insert(graph.vertices.end(), ring.begin(), ring.end());
+      for (uint32_t i = 0; i < size; ++i) graph.segments.push_back({first + i, first + (i + 1) % size, static_cast<uint32_t>(outline)});
+    }
+  };
+  for (size_t f = 0; f < floor.footprints.size(); ++f) {
+    if (floor.footprints[f].bounds_rooms) append(floor.footprints[f].rings, f);
+  }
+  for (size_t d = 0; d < floor.dividers.size(); ++d) append(floor.dividers[d].rings, floor.footprints.size() + d);
+  return graph;
+}
+
+class MapBuilder {
+ public:
+  MapBuilder(Floor& floor, const PlanarMapOptions& options)
+      : floor_(floor), options_(options), graph_(Snap(OutlinesOf(floor), options.snap_radius_m)) {}
+
+  void Run() {
+    Insert();
+    RemoveAntennas();
+    LabelFaces();
+    if (!floor_.dividers.empty()) Divide();
+    ExtractVertices();
+    ExtractFaces();
+  }
+
+ private:
+  void Insert() {
+    std::vector<Traits::Curve_2> curves;
+    const auto point = [this](uint32_t v) { return Kernel::Point_2(graph_.vertices[v].x(), graph_.vertices[v].y()); };
+    for (uint32_t i = 0; i < graph_.segments.size(); ++i) {
+      const SnapSegment& s = graph_.segments[i];
+      if (graph_.vertices[s.from] == graph_.vertices[s.to]) continue;
+      curves.emplace_back(Kernel::Segment_2(point(s.from), point(s.to)), i);
+    }
+    CGAL::insert(arrangement_, curves.begin(), curves.end());
+  }
+
+  // Edges with the same face on both sides bound nothing.
+  void RemoveAntennas() {
+    for (bool changed = true; changed;) {
+      changed = false;
+      for (auto e = arrangement_.edges_begin(); e != arrangement_.edges_end();) {
+        const Arrangement::Halfedge_handle here = e->twin()->twin();
+        ++e;
+        if (here->face() != here->twin()->face()) continue;
+        arrangement_.remove_edge(here);
+        changed = true;
+      }
+    }
+  }
+
+  // How much the winding numbers on the left of `edge` exceed those on its right.
+  Windings StepOver(Halfedge edge) const {
+    Windings out;
+    const bool edge_forward = edge->direction() == CGAL::ARR_LEFT_TO_RIGHT;
+    for (const uint32_t i : edge->curve().data()) {
+      const SnapSegment& s = graph_.segments[i];
+      const bool forward = LexicographicallyLess(graph_.vertices[s.from], graph_.vertices[s.to]);
+      out[s.footprint] += forward == edge_forward ? 1 : -1;
+    }
+    return out;
+  }
+
+  template <class Visit>
+  static void ForEachEdge(Arrangement::Face_handle face, const Visit& visit) {
+    const auto walk = [&visit](Arrangement::Ccb_halfedge_circulator first) {
+      auto edge = first;
+      do visit(edge);
+      while (++edge != first);
+    };
+    for (auto ccb = face->outer_ccbs_begin(); ccb != face->outer_ccbs_end(); ++ccb) walk(*ccb);
+    for (auto ccb = face->inner_ccbs_begin(); ccb != face->inner_ccbs_end(); ++ccb) walk(*ccb);
+  }
+
+  void LabelFaces() {
+    std::deque<Arrangement::Face_handle> open = {arrangement_.unbounded_face()};
+    std::set<const void*> known = {&*arrangement_.unbounded_face()};  // membership only, never walked in order
+    while (!open.empty()) {
+      const Arrangement::Face_handle face = open.front();
+      open.pop_front();
+      ForEachEdge(face, [&](Arrangement::Ccb_halfedge_circulator edge) {
+        const Arrangement::Face_handle across = edge->twin()->face();
+        if (!known.insert(&*across).second) return;
+        Windings windings = face->data().windings;
+        for (const auto& [outline, step] : StepOver(edge)) {
+          if ((windings[outline] -= step) == 0) windings.erase(outline);
+        }
+        across->data().windings = std::move(windings);
+        open.push_back(across);
+      });
+    }
+  }
+
+  bool IsDivider(uint32_t outline) const { return outline >= floor_.footprints.size(); }
+  bool IsFree(Arrangement::Face_const_handle f) const {
+    const Windings& windings = f->data().windings;
+    return !f->is_unbounded() && (windings.empty() || IsDivider(windings.begin()->first));
+  }
+  // No wall's outline runs here.
+  bool IsVirtual(Halfedge edge) const {
+    return std::all_of(edge->curve().data().begin(), edge->curve().data().end(),
+                       [this](uint32_t i) { return IsDivider(graph_.segments[i].footprint); });
+  }
+
+  static double AreaOf(Arrangement::Face_handle face) {
+    double twice = 0;
+    ForEachEdge(face, [&twice](Arrangement::Ccb_halfedge_circulator edge) {
+      const auto &a = edge->source()->point(), &b = edge->target()->point();
+      twice += CGAL::to_double(a.x()) * CGAL::to_double(b.y()) - CGAL::to_double(b.x()) * CGAL::to_double(a.y());
+    });
+    return 0.5 * twice;
+  }
+
+  // Gives the parts of an open plan to the spaces that share it, and takes out the dividers' edges that divide nothing.
+  void Divide() {
+    FindRegions();
+    AssignSpaces();
+    while (AdoptStrips()) {
+    }
+    for (auto e = arrangement_.edges_begin(); e != arrangement_.edges_end();) {
+      const Arrangement::Halfedge_handle here = e->twin()->twin();
+      ++e;
+      const FaceLabel &a = here->face()->data(), &b = here->twin()->face()->data();
+      if (!IsVirtual(here) || (a.region != kNoIndex && a.space != b.space)) continue;
+      arrangement_.remove_edge(here);
+    }
+    RemoveAntennas();
+  }
+
+  void FindRegions() {
+    uint32_t regions = 0;
+    for (auto f = arrangement_.faces_begin(); f != arrangement_.faces_end(); ++f) {
+      if (!IsFree(f) || f->data().region != kNoIndex) continue;
+      std::vector<Arrangement::Face_handle> open = {f};
+      f->data().region = regions;
+      while (!open.empty()) {
+        const Arrangement::Face_handle face = open.back();
+        open.pop_back();
+        ForEachEdge(face, [&](Arrangement::Ccb_halfedge_circulator edge) {
+          const Arrangement::Face_handle across = edge->twin()->face();
+          if (!IsFree(across) || !IsVirtual(edge) || across->data().region != kNoIndex) return;
+          across->data().region = regions;
+          open.push_back(across);
+        });
+      }
+      ++regions;
+    }
+  }
+
+  // A divider divides only the region that holds most of it: spaces drawn to the middle of walls do not cut up the rooms next door.
+  void AssignSpaces() {
+    std::map<std::pair<uint32_t, uint32_t>, double> area;  // by divider and region
+    for (auto f = arrangement_.faces_begin(); f != arrangement_.faces_end(); ++f) {
+      for (const auto& [outline, winding] : f->data().windings) {
+        if (IsFree(f) && IsDivider(outline)) area[{outline, f->data().region}] += AreaOf(f);
+      }
+    }
+    std::map<uint32_t, std::pair<double, uint32_t>> home;  // divider to area and region
+    for (const auto& [key, size] : area) home[key.first] = std::max(home[key.first], {size, key.second});
+    for (auto f = arrangement_.faces_begin(); f != arrangement_.faces_end(); ++f) {
+      if (!IsFree(f)) continue;
+      for (const auto& [outline, winding] : f->data().windings) {
+        if (f->data().space == kNoIndex && home[outline].second == f->data().region) f->data().space = outline;
+      }
+    }
+  }
+
+  // Narrow parts without space (between a space and the wall, between two spaces) join the space with the longest common border.
+  bool AdoptStrips() {
+    bool changed = false;
+    for (auto f = arrangement_.faces_begin(); f != arrangement_.faces_end(); ++f) {
+      if (!IsFree(f) || f->data().space != kNoIndex) continue;
+      double perimeter = 0;
+      std::map<uint32_t, double> border;
+      ForEachEdge(f, [&](Arrangement::Ccb_halfedge_circulator edge) {
+        const double length = std::sqrt(CGAL::to_double(CGAL::squared_distance(edge->source()->point(), edge->target()->point())));
+        const Arrangement::Face_handle across = edge->twin()->face();
+        perimeter += length;
+        if (IsVirtual(edge) && across->data().region == f->data().region && across->data().space != kNoIndex)
+          border[across->data().space] += length;
+      });
+      if (border.empty() || 2 * AreaOf(f) > options_.max_strip_width_m * perimeter) continue;
+      f->data().space =
+          std::max_element(border.begin(), border.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
+      changed = true;
+    }
+    return changed;
+  }
+
+  void ExtractVertices() {
+    std::vector<std::pair<Eigen::Vector2d, Arrangement::Vertex_handle>> vertices;
+    for (auto v = arrangement_.vertices_begin(); v != arrangement_.vertices_end(); ++v) {
+      vertices.emplace_back(Eigen::Vector2d(CGAL::to_double(v->point().x()), CGAL::to_double(v->point().y())), v);
+    }
+    std::stable_sort(vertices.begin(), vertices.end(), [](const auto& a, const auto& b) { return a.second->point() < b.second->point(); });
+    floor_.vertices.clear();
+    for (auto& [p, v] : vertices) {
+      v->set_data(static_cast<uint32_t>(floor_.vertices.size()));
+      floor_.vertices.push_back(p);
+    }
+  }
+
+  std::vector<BoundaryEdge> Boundary(Arrangement::Ccb_halfedge_const_circulator first) const {
+    std::vector<BoundaryEdge> out;
+    auto edge = first;
+    do {
+      BoundaryEdge b;
+      b.from = edge->source()->data();
+      b.to = edge->target()->data();
+      b.face = edge->twin()->face()->data().index;
+      for (const uint32_t i : edge->curve().data()) {
+        if (!IsDivider(graph_.segments[i].footprint)) b.footprints.push_back(graph_.segments[i].footprint);
+      }
+      std::sort(b.footprints.begin(), b.footprints.end());
+      b.footprints.erase(std::unique(b.footprints.begin(), b.footprints.end()), b.footprints.end());
+      out.push_back(std::move(b));
+    } while (++edge != first);
+    const auto least = std::min_element(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.from < b.from; });
+    std::rotate(out.begin(), least, out.end());
+    return out;
+  }
+
+  void ExtractFaces() {
+    std::vector<Arrangement::Face_handle> order;
+    for (auto f = arrangement_.faces_begin(); f != arrangement_.faces_end(); ++f) order.push_back(f);
+    // A face is told by the two least vertices of its outer boundary: the directed edge that leaves the least one has one face on its left.
+    const auto key = [](Arrangement::Face_const_handle f) {
+      std::pair<uint32_t, uint32_t> least(0, 0);
+      if (f->is_unbounded()) return least;
+      least = {kNoIndex, kNoIndex};
+      auto edge = f->outer_ccb();
+      do {
+        least = std::min(least, {edge->source()->data() + 1, edge->target()->data() + 1});
+      } while (++edge != f->outer_ccb());
+      return least;
+    };
+    std::vector<std::pair<std::pair<uint32_t, uint32_t>, Arrangement::Face_handle>> keyed;
+    for (const auto& f : order) keyed.emplace_back(key(f), f);
+    std::stable_sort(keyed.begin(), keyed.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (uint32_t i = 0; i < keyed.size(); ++i) keyed[i].second->data().index = i;
+
+    floor_.faces.clear();
+    for (const auto& [least, f] : keyed) {
+      FloorFace face;
+      for (const auto& [outline, winding] : f->data().windings) {
+        if (!IsDivider(outline)) face.cover.push_back(outline);
+      }
+      if (f->data().space != kNoIndex) face.space = floor_.dividers[f->data().space - floor_.footprints.size()].space;
+      if (!f->is_unbounded()) face.outer = Boundary(f->outer_ccb());
+      for (auto ccb = f->inner_ccbs_begin(); ccb != f->inner_ccbs_end(); ++ccb) face.holes.push_back(Boundary(*ccb));
+      std::sort(face.holes.begin(), face.holes.end(), [](const auto& a, const auto& b) { return a[0].from < b[0].from; });
+      floor_.faces.push_back(std::move(face));
+    }
+    for (FloorFace& face : floor_.faces) {
+      if (!face.bounded()) continue;
+      for (const Ring& ring : FaceRings(floor_, face)) face.area_m2 += SignedArea(ring);
+    }
+  }
+
+  Floor& floor_;
+  const PlanarMapOptions& options_;
+  SnapGraph graph_;
+  Arrangement arrangement_;
+};
+
+}  // namespace
+
+std::string PlanarMapOptions::Check() const {
+  if (!(snap_radius_m > 0 && snap_radius_m <= 0.05))
+    return fmt::format("PlanarMapOptions.snap_radius_m = {}; must be in (0, 0.05]", snap_radius_m);
+  if (!(max_strip_width_m >= 0)) return fmt::format("PlanarMapOptions.max_strip_width_m = {}; must not be negative", max_strip_width_m);
+  return {};
+}
+
+Expected<void> BuildPlanarMap(Floor& floor, const PlanarMapOptions& options) {
+  try {
+    MapBuilder(floor, options).Run();
+  } catch (const std::exception& e) {
+    return Fail(ErrorCode::kInternal, fmt::format("the arrangement of the level at {:.3f} m failed: {}", floor.level.base_z_m, e.what()));
+  }
+  return {};
+}
+
+std::vector<Ring> FaceRings(const Floor& floor, const FloorFace& face) {
+  std::vector<Ring> out;
+  const auto append = [&](const std::vector<BoundaryEdge>& edges) {
+    Ring ring;
+    for (const BoundaryEdge& e : edges) ring.push_back(floor.vertices[e.from]);
+    out.push_back(std::move(ring));
+  };
+  if (face.bounded()) append(face.outer);
+  for (const auto& hole : face.holes) append(hole);
+  return out;
+}
+
+FaceLocator::FaceLocator(const Floor& floor) {
+  for (size_t i = 1; i < floor.faces.size(); ++i) {
+    std::vector<Ring> rings = FaceRings(floor, floor.faces[i]);
+    const Eigen::AlignedBox2d box = BoundingBox(rings);
+    entries_.push_back({std::move(rings), box});
+  }
+}
+
+uint32_t FaceLocator::FaceAt(const Eigen::Vector2d& p) const {
+  for (size_t i = 0; i < entries_.size(); ++i) {
+    if (entries_[i].box.contains(p) && WindingNumber(entries_[i].rings, p) != 0) return static_cast<uint32_t>(i + 1);
+  }
+  return 0;
+}
+
+}  // namespace plumb::compiler

@@ -1,0 +1,165 @@
+#include "compiler/passes/rooms.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "compiler/passes/planar_map.h"
+#include "compiler/passes/polygon.h"
+#include "compiler/passes/vertical_probe.h"
+
+namespace plumb::compiler {
+namespace {
+
+constexpr double kProbeClearance_m = 0.05;  // probes keep off walls: skirtings, wall edges of slabs
+constexpr double kFloorSearch_m = 1.0;      // a floor further below its level than this belongs to another one (a void)
+constexpr double kHeadroom_m = 0.3;         // ceilings are looked for from here above the floor
+
+double Median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double Perimeter(const std::vector<Ring>& rings) {
+  double out = 0;
+  for (const Ring& ring : rings) {
+    for (size_t i = 0; i < ring.size(); ++i) out += (ring[(i + 1) % ring.size()] - ring[i]).norm();
+  }
+  return out;
+}
+
+// Direction of the longest side, in [0, pi/2).
+double YawOf(const Ring& ring) {
+  Eigen::Vector2d longest = Eigen::Vector2d::Zero();
+  for (size_t i = 0; i < ring.size(); ++i) {
+    const Eigen::Vector2d side = ring[(i + 1) % ring.size()] - ring[i];
+    if (side.norm() > longest.norm() + 1e-6) longest = side;
+  }
+  constexpr double kQuarter = std::numbers::pi / 2;
+  const double yaw = std::fmod(std::atan2(longest.y(), longest.x()) + 4 * kQuarter, kQuarter);
+  return kQuarter - yaw < 1e-9 ? 0.0 : yaw;
+}
+
+// Points of a lattice along the room's longest side that lie inside, at least one.
+std::vector<Eigen::Vector2d> ProbePoints(const std::vector<Ring>& rings, double yaw_rad) {
+  const Eigen::Vector2d u(std::cos(yaw_rad), std::sin(yaw_rad)), v = Rot90Ccw(u);
+  Eigen::AlignedBox2d box;
+  for (const auto& p : rings[0]) box.extend(Eigen::Vector2d(u.dot(p), v.dot(p)));
+  std::vector<Eigen::Vector2d> out;
+  for (int n = 5; n <= 45 && out.empty(); n *= 3) {
+    for (int i = 0; i < n * n; ++i) {
+      const Eigen::Vector2d f((i % n + 0.5) / n, (i / n + 0.5) / n);
+      const Eigen::Vector2d q = box.min() + f.cwiseProduct(box.sizes());
+      const Eigen::Vector2d p = q.x() * u + q.y() * v;
+      if (WindingNumber(rings, p) != 0 && DistanceToRings(p, rings) > kProbeClearance_m) out.push_back(p);
+    }
+  }
+  if (out.empty()) out.push_back(Centroid(rings));
+  return out;
+}
+
+class RoomFinder {
+ public:
+  RoomFinder(const PlanIr& plan, const FloorIr& floors, const RoomOptions& options, AGraph& graph, DiagnosticSink& sink)
+      : plan_(plan),
+        floors_(floors),
+        options_(options),
+        graph_(graph),
+        sink_(sink),
+        below_(plan, {ElementKind::kSlab, ElementKind::kRoof, ElementKind::kCovering, ElementKind::kGround}),
+        above_(plan, {ElementKind::kSlab, ElementKind::kRoof, ElementKind::kCovering}) {}
+
+  RoomsByFace Run() {
+    RoomsByFace out;
+    for (const Floor& floor : floors_.floors) {
+      out.emplace_back(floor.faces.size());
+      for (size_t f = 1; f < floor.faces.size(); ++f) out.back()[f] = TryFace(floor, floor.faces[f]);
+    }
+    return out;
+  }
+
+ private:
+  RoomId TryFace(const Floor& floor, const FloorFace& face) {
+    if (!face.cover.empty() || face.area_m2 < options_.min_area_m2) return {};
+    std::vector<Ring> rings;
+    for (const Ring& ring : FaceRings(floor, face)) {
+      Ring simple = Simplified(ring, options_.collinear_m);
+      if (simple.size() >= 3)
+        rings.push_back(std::move(simple));
+      else if (rings.empty())
+        return {};
+    }
+    if (2 * face.area_m2 / Perimeter(rings) < options_.min_width_m) return {};
+    Room room;
+    room.polygon = rings[0];
+    room.holes.assign(rings.begin() + 1, rings.end());
+    for (const Ring& ring : rings) room.area_m2 += SignedArea(ring);
+    room.yaw_rad = YawOf(room.polygon);
+    if (!SetHeights(floor.level, rings, room)) return {};
+    room.center << Centroid(rings), room.floor_z_m;
+    graph_.rooms.push_back(std::move(room));
+    return RoomId(graph_.rooms.size() - 1);
+  }
+
+  // False if a person cannot stand in it.
+  bool SetHeights(const Level& level, const std::vector<Ring>& rings, Room& room) {
+    const std::vector<Eigen::Vector2d> probes = ProbePoints(rings, room.yaw_rad);
+    std::vector<double> floor_hits, ceiling_hits;
+    for (const auto& p : probes) {
+      const std::optional<double> z = below_.Below(p, level.section_z_m);
+      if (z && *z >= level.base_z_m - kFloorSearch_m) floor_hits.push_back(*z);
+    }
+    const bool has_floor = 2 * floor_hits.size() >= probes.size();
+    room.floor_z_m = has_floor ? Median(floor_hits) : graph_.storeys[level.first_storey].elevation_m;
+    room.storey = StoreyAt(level, room.floor_z_m);
+    for (const auto& p : probes) {
+      const std::optional<double> z = above_.Above(p, room.floor_z_m + kHeadroom_m);
+      if (z) ceiling_hits.push_back(*z);
+    }
+    const bool has_ceiling = 2 * ceiling_hits.size() >= probes.size();
+    room.ceiling_z_m = has_ceiling ? Median(ceiling_hits) : std::max(level.top_z_m, room.floor_z_m + kHeadroom_m);
+    const double clear = (has_ceiling ? *std::max_element(ceiling_hits.begin(), ceiling_hits.end()) : room.ceiling_z_m) - room.floor_z_m;
+    if (clear >= options_.min_clear_height_m) return true;
+    sink_.Emit(DiagnosticKind::kRoomTooLow, {},
+               fmt::format("the space of {:.1f} m2 around ({:.2f}, {:.2f}) on `{}` is {:.2f} m high; rooms have at least {:.2f} m",
+                           room.area_m2, Centroid(rings).x() + plan_.origin.x(), Centroid(rings).y() + plan_.origin.y(),
+                           graph_.storeys[room.storey.index()].name, clear, options_.min_clear_height_m));
+    return false;
+  }
+
+  // Of the level's storeys the one whose zero is nearest to the floor; the lower one on a tie.
+  StoreyId StoreyAt(const Level& level, double floor_z_m) const {
+    uint32_t best = level.first_storey;
+    for (uint32_t s = level.first_storey; s <= level.last_storey; ++s) {
+      const auto distance = [&](uint32_t i) { return std::abs(graph_.storeys[i].elevation_m - floor_z_m); };
+      if (distance(s) < distance(best)) best = s;
+    }
+    return StoreyId(best);
+  }
+
+  const PlanIr& plan_;
+  const FloorIr& floors_;
+  const RoomOptions& options_;
+  AGraph& graph_;
+  DiagnosticSink& sink_;
+  VerticalProbe below_, above_;
+};
+
+}  // namespace
+
+std::string RoomOptions::Check() const {
+  if (!(min_area_m2 >= 0)) return fmt::format("RoomOptions.min_area_m2 = {}; must not be negative", min_area_m2);
+  if (!(min_width_m >= 0)) return fmt::format("RoomOptions.min_width_m = {}; must not be negative", min_width_m);
+  if (!(min_clear_height_m >= 0)) return fmt::format("RoomOptions.min_clear_height_m = {}; must not be negative", min_clear_height_m);
+  if (!(collinear_m > 0)) return fmt::format("RoomOptions.collinear_m = {}; must be positive", collinear_m);
+  return {};
+}
+
+RoomsByFace FindRooms(const PlanIr& plan, const FloorIr& floors, const RoomOptions& options, AGraph& graph, DiagnosticSink& sink) {
+  return RoomFinder(plan, floors, options, graph, sink).Run();
+}
+
+}  // namespace plumb::compiler

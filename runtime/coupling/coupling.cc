@@ -1,0 +1,248 @@
+#include "runtime/coupling/coupling.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "runtime/coupling/level_matching.h"
+#include "runtime/coupling/mixture.h"
+#include "runtime/coupling/wall_frame.h"
+
+namespace plumb::runtime {
+namespace {
+
+constexpr double kMapSigma_m = 0.03;       // of a map surface before joint estimation
+constexpr double kMinOverlap_m = 0.2;
+constexpr double kMinSizeShare = 0.5;      // a line behind another is the wall if it has this share of the front's area, ...
+constexpr double kHigher_m = 0.10;         // ... or is seen this much higher up
+constexpr double kFrontPenalty_nats = 8;   // for taking a surface with a wall visible behind it for the wall
+constexpr double kStepPerMetre = 0.01;     // lines are compared at a distance: allow for their direction errors
+
+// A wall patch of the map, in plan coordinates.
+struct Patch {
+  uint32_t map_surface;
+  Eigen::Vector2d start, end;
+  Eigen::Vector3d normal;
+  double z_min, z_max, area;
+  [[nodiscard]] double length() const { return (end - start).norm(); }
+  [[nodiscard]] Eigen::Vector2d midpoint() const { return 0.5 * (start + end); }
+};
+
+struct Candidate {
+  SurfaceId surface;
+  int side = 0;  // 2 * wall id + (1 if it faces along the wall's reference normal): patches of one side lie on one line
+  double offset_m = 0, yaw_rad = 0, cost_nats = 0;
+};
+
+std::vector<Patch> WallPatches(const SGraph& map, const Eigen::Isometry3d& T_plan_map) {
+  std::vector<Patch> patches;
+  for (size_t i = 0; i < map.surfaces.size(); ++i) {
+    const MapSurface& s = map.surfaces[i];
+    if (s.kind != SurfaceKind::kWall || s.observations.empty()) continue;
+    const Eigen::Vector3d start = T_plan_map * Eigen::Vector3d(s.start.x(), s.start.y(), s.z_min_m);
+    const Eigen::Vector3d end = T_plan_map * Eigen::Vector3d(s.end.x(), s.end.y(), s.z_max_m);
+    patches.push_back({static_cast<uint32_t>(i), start.head<2>(), end.head<2>(), T_plan_map.linear() * s.plane.n, start.z(), end.z(), s.area_m2});
+  }
+  return patches;
+}
+
+// Overlap of [a0, a1] and [b0, b1] as a share of the shorter.
+double OverlapRatio(double a0, double a1, double b0, double b1) {
+  const double shorter = std::min(a1 - a0, b1 - b0);
+  return shorter > 0 ? (std::min(a1, b1) - std::max(a0, b0)) / shorter : 0.0;
+}
+
+std::optional<Candidate> Compare(const Patch& patch, SurfaceId id, const Surface& surface, const WallFrame& frame, const WallDeviation& known,
+                                 const CouplingOptions& options) {
+  const Eigen::Vector3d& n = surface.normal;
+  const double yaw = std::atan2(n.x() * patch.normal.y() - n.y() * patch.normal.x(), n.head<2>().dot(patch.normal.head<2>()));
+  if (std::abs(yaw - known.yaw_rad) > options.max_yaw_rad) return std::nullopt;
+  if (OverlapRatio(patch.z_min, patch.z_max, surface.z_min_m, surface.z_max_m) < options.min_height_overlap_ratio) return std::nullopt;
+
+  const Eigen::Vector2d along = (surface.end - surface.start).normalized();
+  const double a0 = along.dot(patch.start - surface.start), a1 = along.dot(patch.end - surface.start);
+  const double from = std::max(0.0, std::min(a0, a1)), to = std::min(surface.length_m(), std::max(a0, a1));
+  if (to - from < kMinOverlap_m || OverlapRatio(std::min(a0, a1), std::max(a0, a1), 0, surface.length_m()) < options.min_overlap_ratio) {
+    return std::nullopt;
+  }
+  const double middle = 0.5 * (from + to);
+  const Eigen::Vector2d on_patch = patch.start + (middle - a0) / (a1 - a0) * (patch.end - patch.start);
+  const Eigen::Vector2d on_plan = surface.start + middle * along;
+
+  Candidate c;
+  c.surface = id;
+  c.side = static_cast<int>(2 * surface.wall.value) + (frame.normal.dot(n) > 0 ? 1 : 0);
+  c.offset_m = n.head<2>().dot(on_patch - on_plan);
+  c.yaw_rad = yaw;
+  const Eigen::Vector2d arm = on_plan - frame.pivot.head<2>();
+  const double expected = known.offset_m * frame.normal.dot(n) + known.yaw_rad * n.head<2>().dot(Eigen::Vector2d(-arm.y(), arm.x()));
+  const Eigen::Vector2d residual(c.offset_m - expected, yaw - known.yaw_rad);
+  if (std::abs(residual.x()) > options.max_offset_m) return std::nullopt;
+  const double yaw_sigma = kMapSigma_m / std::max(patch.length(), 0.3);
+  const Eigen::Matrix2d covariance = Eigen::Vector2d(kMapSigma_m * kMapSigma_m, yaw_sigma * yaw_sigma).asDiagonal();
+  c.cost_nats = AssessMixture(residual, covariance, options).cost_nats - std::log((to - from) / std::max(patch.length(), to - from));
+  return c;
+}
+
+// Collinear patches on one side of one wall.
+struct Line {
+  std::vector<size_t> patches;  // the first is the largest and gives the line
+  double area = 0, z_max = -1e300;
+};
+
+// Signed distance of b's middle from a's line, + in front of it (into the free space), beyond what their distance excuses.
+double Step(const Patch& a, const Patch& b, double max_step_m) {
+  const Eigen::Vector2d arm = b.midpoint() - a.midpoint();
+  const double step = a.normal.head<2>().normalized().dot(arm);
+  const double excess = std::abs(step) - kStepPerMetre * arm.norm();
+  return excess > max_step_m ? std::copysign(excess, step) : 0.0;
+}
+
+class Assignment {
+ public:
+  Assignment(const std::vector<Patch>& patches, std::vector<std::vector<Candidate>> candidates, const CouplingOptions& options)
+      : patches_(patches), candidates_(std::move(candidates)), options_(options) {
+    for (auto& list : candidates_) {
+      std::erase_if(list, [&](const Candidate& c) { return c.cost_nats > options_.unmatched_cost_nats; });
+      std::stable_sort(list.begin(), list.end(), [](const Candidate& a, const Candidate& b) { return a.cost_nats < b.cost_nats; });
+    }
+  }
+
+  // Each patch takes its cheapest candidate; sides whose patches do not line up keep one line and the others move on. Every turn removes
+  // at least one candidate, so it ends.
+  const std::vector<std::vector<Candidate>>& Solve() {
+    while (ResolveOneSide()) {
+    }
+    return candidates_;
+  }
+
+ private:
+  bool ResolveOneSide() {
+    std::vector<std::pair<int, size_t>> by_side;
+    for (size_t i = 0; i < patches_.size(); ++i) {
+      if (!candidates_[i].empty()) by_side.emplace_back(candidates_[i].front().side, i);
+    }
+    std::sort(by_side.begin(), by_side.end());
+    for (size_t from = 0, to = 0; from < by_side.size(); from = to) {
+      std::vector<size_t> members;
+      for (to = from; to < by_side.size() && by_side[to].first == by_side[from].first; ++to) members.push_back(by_side[to].second);
+      const std::vector<Line> lines = Lines(members);
+      if (lines.size() < 2) continue;
+      const size_t wall = ChooseWall(lines, by_side[from].first);
+      for (size_t k = 0; k < lines.size(); ++k) {
+        if (k != wall) for (size_t i : lines[k].patches) DropSide(i, by_side[from].first);
+      }
+      return true;
+    }
+    return false;
+  }
+
+  void DropSide(size_t patch, int side) {
+    std::erase_if(candidates_[patch], [&](const Candidate& c) { return c.side == side; });
+  }
+
+  std::vector<Line> Lines(std::vector<size_t> members) const {
+    std::stable_sort(members.begin(), members.end(), [&](size_t a, size_t b) { return patches_[a].area > patches_[b].area; });
+    std::vector<Line> lines;
+    for (size_t i : members) {
+      auto line = std::find_if(lines.begin(), lines.end(),
+                               [&](const Line& l) { return Step(patches_[l.patches.front()], patches_[i], options_.max_step_m) == 0; });
+      if (line == lines.end()) line = lines.emplace(lines.end());
+      line->patches.push_back(i);
+      line->area += patches_[i].area;
+      line->z_max = std::max(line->z_max, patches_[i].z_max);
+    }
+    return lines;
+  }
+
+  // Mean cost of a line's patches on this side, or of their best candidates elsewhere.
+  double Cost(const Line& line, int side, bool elsewhere) const {
+    double sum = 0;
+    for (size_t i : line.patches) {
+      const auto& list = candidates_[i];
+      const auto other = std::find_if(list.begin(), list.end(), [&](const Candidate& c) { return c.side != side; });
+      sum += !elsewhere ? list.front().cost_nats : other == list.end() ? options_.unmatched_cost_nats : other->cost_nats;
+    }
+    return sum / static_cast<double>(line.patches.size());
+  }
+
+  // Is `behind` a wall seen past `front`?
+  bool Hides(const Line& front, const Line& behind) const {
+    const Patch &f = patches_[front.patches.front()], &b = patches_[behind.patches.front()];
+    const bool is_behind = b.normal.head<2>().dot(b.midpoint() - f.midpoint()) < 0;
+    return is_behind && (behind.z_max > front.z_max + kHigher_m || behind.area >= kMinSizeShare * front.area);
+  }
+
+  size_t ChooseWall(const std::vector<Line>& lines, int side) const {
+    size_t best = 0;
+    double best_cost = 1e300;
+    for (size_t k = 0; k < lines.size(); ++k) {
+      double cost = Cost(lines[k], side, false);
+      bool hides = false;
+      for (size_t j = 0; j < lines.size(); ++j) {
+        if (j == k) continue;
+        const double elsewhere = Cost(lines[j], side, true);
+        cost += elsewhere;
+        hides |= elsewhere >= options_.unmatched_cost_nats && Hides(lines[k], lines[j]);
+      }
+      if (hides) cost += kFrontPenalty_nats;
+      if (cost < best_cost - 1e-9) {
+        best_cost = cost;
+        best = k;
+      }
+    }
+    return best;
+  }
+
+  const std::vector<Patch>& patches_;
+  std::vector<std::vector<Candidate>> candidates_;
+  const CouplingOptions& options_;
+};
+
+}  // namespace
+
+std::string CouplingOptions::Check() const {
+  const std::pair<const char*, double> positive[] = {{"max_offset_m", max_offset_m}, {"max_yaw_rad", max_yaw_rad},
+      {"max_level_offset_m", max_level_offset_m}, {"max_step_m", max_step_m}, {"offset_tau0_m", offset_tau0_m},
+      {"offset_tau1_m", offset_tau1_m}, {"yaw_tau0_rad", yaw_tau0_rad}, {"yaw_tau1_rad", yaw_tau1_rad}};
+  for (const auto& [name, value] : positive) {
+    if (!(value > 0)) return fmt::format("CouplingOptions.{} = {}; must be > 0", name, value);
+  }
+  const std::pair<const char*, double> ratios[] = {{"min_overlap_ratio", min_overlap_ratio}, {"min_height_overlap_ratio", min_height_overlap_ratio}};
+  for (const auto& [name, value] : ratios) {
+    if (!(value >= 0 && value <= 1)) return fmt::format("CouplingOptions.{} = {}; must be in [0, 1]", name, value);
+  }
+  if (!(deviated_ratio > 0 && deviated_ratio < 1)) return fmt::format("CouplingOptions.deviated_ratio = {}; must be in (0, 1)", deviated_ratio);
+  if (!(offset_tau1_m > offset_tau0_m)) return fmt::format("CouplingOptions.offset_tau1_m = {}; must be > offset_tau0_m", offset_tau1_m);
+  if (!(yaw_tau1_rad > yaw_tau0_rad)) return fmt::format("CouplingOptions.yaw_tau1_rad = {}; must be > yaw_tau0_rad", yaw_tau1_rad);
+  return {};
+}
+
+std::vector<Match> MatchSurfaces(const SGraph& map, const AGraph& plan, const Eigen::Isometry3d& T_plan_map,
+                                 const std::vector<WallDeviation>& known, const CouplingOptions& options) {
+  const std::vector<WallFrame> frames = WallFrames(plan);
+  const std::vector<Patch> patches = WallPatches(map, T_plan_map);
+  std::vector<std::vector<Candidate>> candidates(patches.size());
+  for (size_t i = 0; i < patches.size(); ++i) {
+    for (size_t j = 0; j < plan.surfaces.size(); ++j) {
+      const Surface& surface = plan.surfaces[j];
+      if (!surface.wall.valid() || !IsFace(frames[surface.wall.index()], surface)) continue;
+      const WallDeviation deviation = surface.wall.index() < known.size() ? known[surface.wall.index()] : WallDeviation{};
+      if (auto c = Compare(patches[i], SurfaceId(j), surface, frames[surface.wall.index()], deviation, options)) candidates[i].push_back(*c);
+    }
+  }
+  const std::vector<std::vector<Candidate>> assigned = Assignment(patches, std::move(candidates), options).Solve();
+
+  std::vector<Match> matches = MatchLevels(map, plan, T_plan_map, options);
+  for (size_t i = 0; i < patches.size(); ++i) {
+    if (assigned[i].empty()) continue;
+    const Candidate& c = assigned[i].front();
+    matches.push_back({patches[i].map_surface, c.surface, RoomId(), c.offset_m, c.yaw_rad});
+  }
+  std::sort(matches.begin(), matches.end(), [](const Match& a, const Match& b) { return a.map_surface < b.map_surface; });
+  return matches;
+}
+
+}  // namespace plumb::runtime

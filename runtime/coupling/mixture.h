@@ -1,0 +1,23 @@
+// The prior on wall deviations: most walls stand as planned within construction tolerance, some do not; offset and yaw each on their own.
+#pragma once
+
+#include <Eigen/Core>
+
+#include "runtime/coupling/coupling.h"
+
+namespace plumb::runtime {
+
+struct Responsibilities {
+  double offset = 0, yaw = 0;  // probability that the offset, the yaw comes from the wide component
+  double any = 0;              // that at least one of them does: the wall deviates
+  double cost_nats = 0;        // -log of the measurement's density under the mixture
+};
+
+// Of a measured deviation (offset_m, yaw_rad) with the measurement's covariance, before any prior. Four components: {as planned, deviated}
+// for the offset times the same for the yaw; `deviated_ratio` is shared equally by the three that deviate.
+[[nodiscard]] Responsibilities AssessMixture(const Eigen::Vector2d& measured, const Eigen::Matrix2d& covariance, const CouplingOptions& options);
+
+// Expected inverse prior variances (offset, yaw) given the responsibilities: what the M step weights the deviation with.
+[[nodiscard]] Eigen::Vector2d PriorInformation(const Responsibilities& r, const CouplingOptions& options);
+
+}  // namespace plumb::runtime

@@ -1,0 +1,126 @@
+#include "runtime/deviations/deviations.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/coupling/wall_frame.h"
+#include "runtime/deviations/room_deviation.h"
+
+namespace plumb::runtime {
+namespace {
+
+// P(chi-square with 2 dof > that of the wall's deviation).
+double PValue(const WallEstimate& wall, const DeviationOptions& options) {
+  Eigen::Matrix2d s = wall.cov;
+  s(0, 0) += options.tolerance_offset_m * options.tolerance_offset_m;
+  s(1, 1) += options.tolerance_yaw_rad * options.tolerance_yaw_rad;
+  const Eigen::Vector2d e(wall.deviation.offset_m, wall.deviation.yaw_rad);
+  return std::exp(-0.5 * e.dot(s.inverse() * e));
+}
+
+// Which hypotheses are rejected at the given false discovery rate.
+std::vector<bool> BenjaminiHochberg(const std::vector<double>& p_values, double rate) {
+  std::vector<double> sorted = p_values;
+  std::sort(sorted.begin(), sorted.end());
+  double threshold = -1;
+  for (size_t k = 0; k < sorted.size(); ++k) {
+    if (sorted[k] <= rate * static_cast<double>(k + 1) / static_cast<double>(sorted.size())) threshold = sorted[k];
+  }
+  std::vector<bool> rejected;
+  for (double p : p_values) rejected.push_back(p <= threshold);
+  return rejected;
+}
+
+std::vector<SurfaceStatus> WallStatuses(const JointResult& estimate, const DeviationOptions& options) {
+  std::vector<SurfaceStatus> statuses(estimate.walls.size(), SurfaceStatus::kUnobserved);
+  std::vector<size_t> observed;
+  std::vector<double> p_values;
+  for (size_t i = 0; i < estimate.walls.size(); ++i) {
+    if (estimate.walls[i].observed_m2 < options.min_observed_m2) continue;
+    observed.push_back(i);
+    p_values.push_back(PValue(estimate.walls[i], options));
+  }
+  const std::vector<bool> rejected = BenjaminiHochberg(p_values, options.false_discovery_rate);
+  for (size_t k = 0; k < observed.size(); ++k) {
+    const WallEstimate& w = estimate.walls[observed[k]];
+    const bool large = std::abs(w.deviation.offset_m) >= options.min_offset_m || std::abs(w.deviation.yaw_rad) >= options.min_yaw_rad;
+    const bool deviated = rejected[k] && large && w.p_deviated >= options.min_p_deviated;
+    statuses[observed[k]] = deviated ? SurfaceStatus::kDeviated : SurfaceStatus::kAsPlanned;
+  }
+  return statuses;
+}
+
+SurfaceDeviation DeviationOfFace(const Face& face, const WallEstimate& wall) {
+  const double parameters[kNumWallParameters] = {wall.deviation.offset_m, wall.deviation.yaw_rad, wall.tilt_rad, wall.thickness_error_m};
+  Plane built;
+  BuiltPlane(face, parameters, &built.n, &built.d);
+  const FaceDeviation d = CompareToPlan(face, built);
+  // First order: how the displacement at the face's midpoint follows from the wall's parameters. Tilt acts at half height: not at all.
+  const Eigen::Vector4d gain(face.wall_normal.dot(face.normal), face.normal.dot(Eigen::Vector3d::UnitZ().cross(face.point - face.pivot)), 0, 0.5);
+  SurfaceDeviation out;
+  out.translation_m = d.offset_m;
+  out.rotation_rad = d.yaw_rad;
+  out.tilt_rad = d.tilt_rad;
+  out.sigma_translation_m = std::sqrt(std::max(0.0, gain.dot(wall.cov_all * gain)));
+  out.sigma_rotation_rad = std::sqrt(std::max(0.0, wall.cov(1, 1)));
+  out.p_deviated = wall.p_deviated;
+  return out;
+}
+
+}  // namespace
+
+const char* StatusName(SurfaceStatus status) {
+  switch (status) {
+    case SurfaceStatus::kAsPlanned: return "as_planned";
+    case SurfaceStatus::kDeviated: return "deviated";
+    case SurfaceStatus::kMissing: return "missing";
+    case SurfaceStatus::kUnobserved: break;
+  }
+  return "unobserved";
+}
+
+std::string DeviationOptions::Check() const {
+  if (!(false_discovery_rate > 0 && false_discovery_rate < 1)) {
+    return fmt::format("DeviationOptions.false_discovery_rate = {}; must be in (0, 1)", false_discovery_rate);
+  }
+  if (!(min_p_deviated >= 0 && min_p_deviated <= 1)) return fmt::format("DeviationOptions.min_p_deviated = {}; must be in [0, 1]", min_p_deviated);
+  const std::pair<const char*, double> magnitudes[] = {{"tolerance_offset_m", tolerance_offset_m}, {"tolerance_yaw_rad", tolerance_yaw_rad},
+      {"min_offset_m", min_offset_m}, {"min_yaw_rad", min_yaw_rad}, {"min_observed_m2", min_observed_m2}};
+  for (const auto& [name, value] : magnitudes) {
+    if (!(value >= 0)) return fmt::format("DeviationOptions.{} = {}; must be >= 0", name, value);
+  }
+  return {};
+}
+
+DeviationReport AssessDeviations(const AGraph& plan, const JointResult& estimate, const DeviationOptions& options) {
+  DeviationReport report;
+  report.gauge = estimate.gauge;
+  report.surfaces.resize(plan.surfaces.size());
+  for (size_t i = 0; i < plan.surfaces.size(); ++i) report.surfaces[i].surface = SurfaceId(i);
+
+  const std::vector<WallFrame> frames = WallFrames(plan);
+  const std::vector<SurfaceStatus> statuses = WallStatuses(estimate, options);
+  std::vector<const WallEstimate*> by_wall(plan.walls.size(), nullptr);
+  for (const WallEstimate& w : estimate.walls) by_wall[w.wall.index()] = &w;
+  for (size_t i = 0; i < plan.surfaces.size(); ++i) {
+    const Surface& surface = plan.surfaces[i];
+    if (!surface.wall.valid() || !by_wall[surface.wall.index()] || !IsFace(frames[surface.wall.index()], surface)) continue;
+    const WallEstimate& wall = *by_wall[surface.wall.index()];
+    SurfaceDeviation d = DeviationOfFace(MakeFace(frames[surface.wall.index()], surface), wall);
+    d.surface = SurfaceId(i);
+    d.status = statuses[static_cast<size_t>(&wall - estimate.walls.data())];
+    for (const SeenSurface& seen : wall.seen) {
+      if (seen.surface != d.surface) continue;
+      d.observed_m2 = seen.observed_m2;
+      d.points = seen.num_points;
+    }
+    report.surfaces[i] = d;
+  }
+  for (size_t r = 0; r < plan.rooms.size(); ++r) report.rooms.push_back(DeviationOfRoom(plan, RoomId(r), report.surfaces, options));
+  return report;
+}
+
+}  // namespace plumb::runtime

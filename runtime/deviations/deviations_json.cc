@@ -1,0 +1,66 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "runtime/deviations/deviations.h"
+
+namespace plumb::runtime {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double Rounded(double value, double per_unit) {
+  const double rounded = std::round(value * per_unit) / per_unit;
+  return rounded == 0 ? 0 : rounded;  // never -0
+}
+double Metres(double v) { return Rounded(v, 1e5); }
+double Degrees(double rad) { return Rounded(rad * 180 / std::numbers::pi, 1e4); }
+Json TextOrNull(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
+
+Json SurfaceEntry(const AGraph& plan, const SurfaceDeviation& d) {
+  const Surface& s = plan.surfaces[d.surface.index()];
+  Json out;
+  out["id"] = d.surface.value;
+  out["wall_guid"] = s.wall.valid() ? TextOrNull(plan.walls[s.wall.index()].guid) : Json(nullptr);
+  out["storey"] = s.storey.valid() ? Json(plan.storeys[s.storey.index()].name) : Json(nullptr);
+  out["normal"] = {Rounded(s.normal.x(), 1e9), Rounded(s.normal.y(), 1e9), Rounded(s.normal.z(), 1e9)};
+  out["status"] = StatusName(d.status);
+  out["translation_m"] = Metres(d.translation_m);
+  out["sigma_translation_m"] = Metres(d.sigma_translation_m);
+  out["rotation_deg"] = Degrees(d.rotation_rad);
+  out["sigma_rotation_deg"] = Degrees(d.sigma_rotation_rad);
+  out["tilt_deg"] = Degrees(d.tilt_rad);
+  out["p_deviated"] = Rounded(d.p_deviated, 1e6);
+  out["observed_m2"] = Rounded(d.observed_m2, 1e2);
+  out["points"] = static_cast<int64_t>(std::llround(d.points));
+  return out;
+}
+
+Json RoomEntry(const AGraph& plan, const RoomDeviation& d) {
+  const Room& room = plan.rooms[d.room.index()];
+  Json out;
+  out["id"] = d.room.value;
+  out["name"] = room.name;
+  out["guid"] = TextOrNull(room.guid);
+  out["translation_m"] = {Metres(d.translation_m.x()), Metres(d.translation_m.y())};
+  out["rotation_deg"] = Degrees(d.rotation_rad);
+  out["sigma_m"] = Metres(d.sigma_m);
+  out["status"] = StatusName(d.status);
+  return out;
+}
+
+}  // namespace
+
+std::string DeviationsToJson(const AGraph& plan, const DeviationReport& report) {
+  Json out;
+  out["version"] = 1;
+  out["gauge"] = report.gauge;
+  out["surfaces"] = Json::array();
+  for (const SurfaceDeviation& d : report.surfaces) out["surfaces"].push_back(SurfaceEntry(plan, d));
+  out["rooms"] = Json::array();
+  for (const RoomDeviation& d : report.rooms) out["rooms"].push_back(RoomEntry(plan, d));
+  out["unplanned"] = Json::array();
+  return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace plumb::runtime

@@ -1,0 +1,44 @@
+// The scans between two keyframes, gathered in the first one's frame.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "runtime/mapping/mapper_options.h"
+#include "runtime/mapping/sgraph.h"
+#include "runtime/odometry/surfel_map.h"
+#include "runtime/sources/recording.h"
+
+namespace plumb::runtime {
+
+// What one scan saw.
+struct View {
+  Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  // keyframe frame
+  std::vector<Eigen::Vector3f> points;               // keyframe frame
+};
+
+class KeyframeWindow {
+ public:
+  // Opens at the lidar's pose T_odom_kf, which becomes the keyframe's.
+  KeyframeWindow(const MapperOptions& options, double stamp_s, const Eigen::Isometry3d& T_odom_kf);
+
+  void Add(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar);
+
+  [[nodiscard]] double stamp_s() const { return stamp_s_; }
+  [[nodiscard]] const Eigen::Isometry3d& T_odom_kf() const { return T_odom_kf_; }
+  [[nodiscard]] const std::vector<View>& views() const { return views_; }
+  [[nodiscard]] const SurfelMap& surfels() const { return surfels_; }
+
+  // At most one point per voxel and max_keyframe_points, keyframe frame.
+  [[nodiscard]] std::vector<Eigen::Vector3f> ThinnedPoints() const;
+
+ private:
+  MapperOptions options_;
+  double stamp_s_;
+  Eigen::Isometry3d T_odom_kf_;
+  std::vector<View> views_;
+  size_t num_points_ = 0;
+  SurfelMap surfels_;
+};
+
+}  // namespace plumb::runtime

@@ -1,0 +1,137 @@
+#include "runtime/mapping/map_surfaces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "runtime/mapping/cell_planes.h"
+#include "runtime/mapping/plane_fit.h"
+
+namespace plumb::runtime {
+namespace {
+
+constexpr double kSameFacingCos = 0.8;
+// Two views of one surface may differ in direction by this much at the shorter one's ends, and by odometry's drift.
+constexpr double kEndOffset_m = 0.03, kMinAngle_rad = 0.02;
+constexpr double kEchoPoints = 0.2, kEchoFacingCos = 0.94, kEchoDistance_m = 0.06, kEchoShare = 0.6;
+constexpr double kEdge_m = 0.5 * kCell_m;  // a cell's mean point lies inside the surface's edge by about this
+
+// Angle between the normals; for walls of their horizontal parts, since low segments know little of their tilt.
+double NormalAngle(const Plane& a, const Plane& b, SurfaceKind kind) {
+  if (kind != SurfaceKind::kWall) return std::acos(std::clamp(a.n.dot(b.n), -1.0, 1.0));
+  return std::abs(std::atan2(a.n.x() * b.n.y() - a.n.y() * b.n.x(), a.n.head<2>().dot(b.n.head<2>())));
+}
+
+void UpdateExtent(const SurfaceTrack& track, MapSurface* surface) {
+  MapSurface& s = *surface;
+  const SurfacePatch& patch = track.patch;
+  s.area_m2 = patch.area_m2();
+  const Eigen::Vector2d lo = patch.lo().array() - kEdge_m, hi = patch.hi().array() + kEdge_m;
+  const double middle = 0.5 * (lo.y() + hi.y());
+  if (s.kind == SurfaceKind::kWall) {
+    s.start = patch.Point({lo.x(), middle}).head<2>();
+    s.end = patch.Point({hi.x(), middle}).head<2>();
+    s.z_min_m = patch.Point({lo.x(), lo.y()}).z();
+    s.z_max_m = patch.Point({lo.x(), hi.y()}).z();
+    return;
+  }
+  s.z_min_m = s.z_max_m = track.sum.centroid().z();
+  s.start.setConstant(std::numeric_limits<double>::infinity());
+  s.end = -s.start;
+  for (const Eigen::Vector2d& corner : {lo, hi, Eigen::Vector2d(lo.x(), hi.y()), Eigen::Vector2d(hi.x(), lo.y())}) {
+    const Eigen::Vector2d p = patch.Point(corner).head<2>();
+    s.start = s.start.cwiseMin(p);
+    s.end = s.end.cwiseMax(p);
+  }
+}
+
+// `towards`: roughly the normal.
+void UpdatePlane(const std::vector<Keyframe>& keyframes, const Eigen::Vector3d& towards, MapSurface* surface, SurfaceTrack* track) {
+  surface->plane = FitPlane(track->sum, towards).plane;
+  surface->num_points = track->sum.count();
+  track->patch.Follow(keyframes[track->patch.keyframe()].T_map_kf, surface->plane);
+}
+
+// Bounds of b in a's coordinates.
+struct Bounds {
+  Eigen::Vector2d lo, hi;
+};
+Bounds BoundsIn(const SurfacePatch& a, const SurfacePatch& b) {
+  Bounds bounds;
+  bounds.lo.setConstant(std::numeric_limits<double>::infinity());
+  bounds.hi = -bounds.lo;
+  for (const Eigen::Vector2d& corner : {b.lo(), b.hi(), Eigen::Vector2d(b.lo().x(), b.hi().y()), Eigen::Vector2d(b.hi().x(), b.lo().y())}) {
+    const Eigen::Vector2d at = a.Coordinates(b.Point(corner));
+    bounds.lo = bounds.lo.cwiseMin(at);
+    bounds.hi = bounds.hi.cwiseMax(at);
+  }
+  return bounds;
+}
+
+}  // namespace
+
+TrackedSurface SurfaceOf(const Segment& segment, const Keyframe& keyframe) {
+  MapSurface s;
+  s.kind = segment.kind;
+  s.plane = segment.plane.Transformed(keyframe.T_map_kf);
+  s.observations = {{keyframe.id, segment.stats}};
+  const PlaneStats sum = segment.stats.Transformed(keyframe.T_map_kf);
+  s.num_points = sum.count();
+  SurfacePatch patch(keyframe.id, keyframe.T_map_kf, s.plane, s.kind, sum.centroid());
+  for (const Eigen::Vector3f& cell : segment.cells) patch.Mark(keyframe.T_map_kf * cell.cast<double>());
+  TrackedSurface tracked{std::move(s), {std::move(patch), sum}};
+  UpdateExtent(tracked.track, &tracked.surface);
+  return tracked;
+}
+
+double SurfaceDistance(const SurfacePatch& a, const SurfacePatch& b, const MapperOptions& options) {
+  constexpr double kApart = std::numeric_limits<double>::infinity();
+  if (a.kind() != b.kind() || a.plane().n.dot(b.plane().n) < kSameFacingCos) return kApart;
+  const double shorter_m = std::min(a.hi().x() - a.lo().x(), b.hi().x() - b.lo().x());
+  const double max_angle_rad = std::clamp(kEndOffset_m / shorter_m, kMinAngle_rad, std::max(kMinAngle_rad, options.merge_angle_rad));
+  if (NormalAngle(a.plane(), b.plane(), a.kind()) > max_angle_rad) return kApart;
+  const Bounds other = BoundsIn(a, b);
+  const Eigen::Vector2d from = a.lo().cwiseMax(other.lo), to = a.hi().cwiseMin(other.hi);
+  const Eigen::Vector2d overlap_m = to - from;
+  if (-overlap_m.minCoeff() > options.merge_gap_m) return kApart;
+  const Eigen::Vector2d middle = 0.5 * (from + to);
+  const bool at_ends = overlap_m.x() > 0 && a.kind() == SurfaceKind::kWall;
+  double sum_m = 0, worst_m = 0;
+  for (const double u : {at_ends ? from.x() : middle.x(), at_ends ? to.x() : middle.x()}) {
+    const double offset_m = std::abs(b.plane().SignedDistance(a.Point({u, middle.y()})));
+    sum_m += offset_m;
+    worst_m = std::max(worst_m, offset_m);
+  }
+  return worst_m <= options.merge_distance_m ? 0.5 * sum_m : kApart;
+}
+
+bool IsEcho(const MapSurface& b, const SurfacePatch& b_patch, const MapSurface& a, const SurfacePatch& a_patch) {
+  if (a.kind != b.kind || b.num_points > kEchoPoints * a.num_points || a.plane.n.dot(b.plane.n) < kEchoFacingCos) return false;
+  return a_patch.ShareCovered(b_patch, kEchoDistance_m) >= kEchoShare;
+}
+
+void Absorb(const TrackedSurface& b, const std::vector<Keyframe>& keyframes, MapSurface* a, SurfaceTrack* a_track) {
+  std::vector<Observation>& observations = a->observations;
+  for (const Observation& o : b.surface.observations) {
+    const auto at = std::lower_bound(observations.begin(), observations.end(), o.keyframe,
+                                     [](const Observation& x, uint32_t keyframe) { return x.keyframe < keyframe; });
+    if (at != observations.end() && at->keyframe == o.keyframe) {
+      at->stats.Add(o.stats);
+    } else {
+      observations.insert(at, o);
+    }
+  }
+  a_track->sum.Add(b.track.sum);
+  UpdatePlane(keyframes, a->plane.n, a, a_track);
+  for (const Eigen::Vector3d& p : b.track.patch.CellPoints()) a_track->patch.Mark(p);
+  UpdateExtent(*a_track, a);
+}
+
+void Recompute(const std::vector<Keyframe>& keyframes, MapSurface* surface, SurfaceTrack* track) {
+  track->sum = {};
+  for (const Observation& o : surface->observations) track->sum.Add(o.stats.Transformed(keyframes[o.keyframe].T_map_kf));
+  UpdatePlane(keyframes, track->patch.NormalGuess(keyframes[track->patch.keyframe()].T_map_kf), surface, track);
+  UpdateExtent(*track, surface);
+}
+
+}  // namespace plumb::runtime

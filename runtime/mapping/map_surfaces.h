@@ -1,0 +1,39 @@
+// The surfaces of the S-Graph: which segment belongs to which surface, and what a surface is given its observations.
+#pragma once
+
+#include <vector>
+
+#include "runtime/mapping/mapper_options.h"
+#include "runtime/mapping/sgraph.h"
+#include "runtime/mapping/surface_patch.h"
+
+namespace plumb::runtime {
+
+// What only the mapper needs of a surface.
+struct SurfaceTrack {
+  SurfacePatch patch;
+  PlaneStats sum;  // of all observations, map frame
+};
+
+struct TrackedSurface {
+  MapSurface surface;
+  SurfaceTrack track;
+};
+
+// A surface of its own, made of one segment seen from `keyframe`.
+[[nodiscard]] TrackedSurface SurfaceOf(const Segment& segment, const Keyframe& keyframe);
+
+// How far apart two surfaces are, at the ends of their overlap; infinity if they are not the same: other kind or facing, other direction, offset
+// too large, or a gap between them. Offsets are taken on the surfaces, never at the frame's origin, where an error in direction would pass for one in offset.
+[[nodiscard]] double SurfaceDistance(const SurfacePatch& a, const SurfacePatch& b, const MapperOptions& options);
+
+// Whether b is a poor fit to points of a: much weaker, roughly as a faces, close to it, and where a was seen itself. Nothing real can be there.
+[[nodiscard]] bool IsEcho(const MapSurface& b, const SurfacePatch& b_patch, const MapSurface& a, const SurfacePatch& a_patch);
+
+// Adds b's observations and cells to a.
+void Absorb(const TrackedSurface& b, const std::vector<Keyframe>& keyframes, MapSurface* a, SurfaceTrack* a_track);
+
+// Plane and extent anew from the observations and the keyframes' present poses.
+void Recompute(const std::vector<Keyframe>& keyframes, MapSurface* surface, SurfaceTrack* track);
+
+}  // namespace plumb::runtime

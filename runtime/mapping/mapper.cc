@@ -1,0 +1,142 @@
+#include "runtime/mapping/mapper.h"
+
+#include <fmt/core.h>
+
+#include <cmath>
+#include <limits>
+
+#include "runtime/mapping/segmentation.h"
+
+namespace plumb::runtime {
+namespace {
+
+// A keyframe this close to the last one tells nothing new.
+constexpr double kStandingStill_m = 0.05, kStandingStill_rad = 0.026;
+
+struct Distance {
+  double m, rad;
+};
+
+Distance Between(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+  const Eigen::Isometry3d T = a.inverse() * b;
+  return {T.translation().norm(), Eigen::AngleAxisd(T.linear()).angle()};
+}
+
+}  // namespace
+
+std::string MapperOptions::Check() const {
+  const auto bad = [](const char* field, auto value, const char* rule) { return fmt::format("MapperOptions.{} = {}; must be {}", field, value, rule); };
+  if (!(keyframe_distance_m > 0)) return bad("keyframe_distance_m", keyframe_distance_m, "> 0");
+  if (!(keyframe_rotation_rad > 0)) return bad("keyframe_rotation_rad", keyframe_rotation_rad, "> 0");
+  if (!(keyframe_interval_s > 0)) return bad("keyframe_interval_s", keyframe_interval_s, "> 0");
+  if (!(keyframe_voxel_m >= 0.005 && keyframe_voxel_m <= 1)) return bad("keyframe_voxel_m", keyframe_voxel_m, "in [0.005, 1]");
+  if (max_keyframe_points < 100) return bad("max_keyframe_points", max_keyframe_points, ">= 100");
+  if (!(min_range_m > 0)) return bad("min_range_m", min_range_m, "> 0");
+  if (!(max_range_m > min_range_m)) return bad("max_range_m", max_range_m, "> min_range_m");
+  if (!(plane_sigma_m >= 0.002 && plane_sigma_m <= 0.2)) return bad("plane_sigma_m", plane_sigma_m, "in [0.002, 0.2]");
+  if (min_segment_points < 3) return bad("min_segment_points", min_segment_points, ">= 3");
+  if (!(min_segment_extent_m >= 0)) return bad("min_segment_extent_m", min_segment_extent_m, ">= 0");
+  if (!(merge_distance_m > 0)) return bad("merge_distance_m", merge_distance_m, "> 0");
+  if (!(merge_angle_rad > 0 && merge_angle_rad < 0.5)) return bad("merge_angle_rad", merge_angle_rad, "in (0, 0.5)");
+  if (!(merge_gap_m >= 0)) return bad("merge_gap_m", merge_gap_m, ">= 0");
+  return {};
+}
+
+Mapper::Mapper(const MapperOptions& options) : options_(options) {}
+
+bool Mapper::AddScan(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar) {
+  const bool grown = window_ && WindowIsFull(deskewed.stamp_s, T_odom_lidar) && CloseWindow();
+  if (!window_) window_.emplace(options_, deskewed.stamp_s, T_odom_lidar);
+  window_->Add(deskewed, T_odom_lidar);
+  return grown;
+}
+
+bool Mapper::Flush() { return window_ && CloseWindow(); }
+
+bool Mapper::WindowIsFull(double stamp_s, const Eigen::Isometry3d& T_odom_lidar) const {
+  const Distance moved = Between(window_->T_odom_kf(), T_odom_lidar);
+  return moved.m >= options_.keyframe_distance_m || moved.rad >= options_.keyframe_rotation_rad ||
+         stamp_s - window_->stamp_s() >= options_.keyframe_interval_s;
+}
+
+// True if the window became a keyframe.
+bool Mapper::CloseWindow() {
+  const KeyframeWindow window = std::move(*window_);
+  window_.reset();
+  if (!graph_.keyframes.empty()) {
+    const Distance moved = Between(graph_.keyframes.back().T_odom_kf, window.T_odom_kf());
+    if (moved.m < kStandingStill_m && moved.rad < kStandingStill_rad) return false;
+  }
+  Keyframe keyframe;
+  keyframe.id = static_cast<uint32_t>(graph_.keyframes.size());
+  keyframe.stamp_s = window.stamp_s();
+  keyframe.T_odom_kf = window.T_odom_kf();
+  keyframe.T_map_kf = T_map_odom_ * window.T_odom_kf();
+  keyframe.points = window.ThinnedPoints();
+  if (keyframe.points.empty()) return false;
+  graph_.keyframes.push_back(std::move(keyframe));
+  for (const Segment& segment : ExtractSegments(window, options_)) AddSegment(segment, graph_.keyframes.back());
+  MergeDuplicates();
+  return true;
+}
+
+void Mapper::AddSegment(const Segment& segment, const Keyframe& keyframe) {
+  TrackedSurface candidate = SurfaceOf(segment, keyframe);
+  size_t best = graph_.surfaces.size();
+  double best_m = std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < graph_.surfaces.size(); ++i) {
+    if (graph_.surfaces[i].observations.empty()) continue;
+    const double distance_m = SurfaceDistance(tracks_[i].patch, candidate.track.patch, options_);
+    if (distance_m >= best_m) continue;
+    best = i;
+    best_m = distance_m;
+  }
+  if (best < graph_.surfaces.size()) {
+    Absorb(candidate, graph_.keyframes, &graph_.surfaces[best], &tracks_[best]);
+    return;
+  }
+  for (size_t i = 0; i < graph_.surfaces.size(); ++i) {
+    if (!graph_.surfaces[i].observations.empty() && IsEcho(candidate.surface, candidate.track.patch, graph_.surfaces[i], tracks_[i].patch)) return;
+  }
+  candidate.surface.id = static_cast<uint32_t>(graph_.surfaces.size());
+  graph_.surfaces.push_back(std::move(candidate.surface));
+  tracks_.push_back(std::move(candidate.track));
+}
+
+void Mapper::Empty(size_t i) {
+  const uint32_t id = graph_.surfaces[i].id;
+  graph_.surfaces[i] = {};
+  graph_.surfaces[i].id = id;
+}
+
+// The older of two surfaces stays; the younger keeps its slot, empty.
+void Mapper::MergeDuplicates() {
+  std::vector<MapSurface>& surfaces = graph_.surfaces;
+  for (size_t i = 0; i < surfaces.size(); ++i) {
+    for (size_t k = i + 1; k < surfaces.size(); ++k) {
+      if (surfaces[i].observations.empty()) break;
+      if (surfaces[k].observations.empty()) continue;
+      if (std::isinf(SurfaceDistance(tracks_[i].patch, tracks_[k].patch, options_))) continue;
+      Absorb({surfaces[k], tracks_[k]}, graph_.keyframes, &surfaces[i], &tracks_[i]);
+      Empty(k);
+      k = i;  // the grown surface may reach others
+    }
+  }
+  for (size_t i = 0; i < surfaces.size(); ++i) {
+    for (size_t k = 0; k < surfaces.size() && !surfaces[i].observations.empty(); ++k) {
+      if (i != k && !surfaces[k].observations.empty() && IsEcho(surfaces[i], tracks_[i].patch, surfaces[k], tracks_[k].patch)) Empty(i);
+    }
+  }
+}
+
+void Mapper::OnPosesChanged() {
+  for (size_t i = 0; i < graph_.surfaces.size(); ++i) {
+    if (!graph_.surfaces[i].observations.empty()) Recompute(graph_.keyframes, &graph_.surfaces[i], &tracks_[i]);
+  }
+  MergeDuplicates();
+  if (graph_.keyframes.empty()) return;
+  const Keyframe& newest = graph_.keyframes.back();
+  T_map_odom_ = newest.T_map_kf * newest.T_odom_kf.inverse();
+}
+
+}  // namespace plumb::runtime

@@ -1,0 +1,24 @@
+// Options of the mapper and its parts.
+#pragma once
+
+#include <string>
+
+namespace plumb::runtime {
+
+struct MapperOptions {
+  double keyframe_distance_m = 0.5;      // a new keyframe after this far, ...
+  double keyframe_rotation_rad = 0.1745; // ... this much turning, ...
+  double keyframe_interval_s = 2.0;      // ... or this long
+  double keyframe_voxel_m = 0.05;        // points of a keyframe are thinned to one per voxel, ...
+  int max_keyframe_points = 12000;       // ... and further, evenly, to this many
+  double min_range_m = 0.4, max_range_m = 60.0;
+  double plane_sigma_m = 0.03;           // expected spread of points about a wall; the inlier band is 3 sigma
+  int min_segment_points = 50;
+  double min_segment_extent_m = 0.4;
+  double merge_distance_m = 0.035;        // same surface: within this at both ends of the overlap (a door leaf lies 5 cm behind its wall), ...
+  double merge_angle_rad = 0.10;         // ... and this in direction (long ones less: 3 cm over the shorter's length, but at least 0.02), ...
+  double merge_gap_m = 0.5;              // ... and no further apart along the wall
+  [[nodiscard]] std::string Check() const;  // empty, or the field, its value and the rule
+};
+
+}  // namespace plumb::runtime

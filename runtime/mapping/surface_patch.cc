@@ -1,0 +1,60 @@
+#include "runtime/mapping/surface_patch.h"
+
+#include <cmath>
+#include <limits>
+
+#include "runtime/mapping/cell_planes.h"
+
+namespace plumb::runtime {
+
+SurfacePatch::SurfacePatch(uint32_t keyframe, const Eigen::Isometry3d& T_map_kf, const Plane& plane, SurfaceKind kind, const Eigen::Vector3d& at)
+    : keyframe_(keyframe), kind_(kind) {
+  lo_.setConstant(std::numeric_limits<double>::infinity());
+  hi_ = -lo_;
+  anchor_kf_ = T_map_kf.inverse() * at;
+  along_kf_ = T_map_kf.linear().transpose() * AxesOf(plane, kind, Eigen::Vector3d::UnitZ()).along;
+  normal_kf_ = T_map_kf.linear().transpose() * plane.n;
+  Follow(T_map_kf, plane);
+}
+
+void SurfacePatch::Follow(const Eigen::Isometry3d& T_map_kf, const Plane& plane) {
+  plane_ = plane;
+  const Eigen::Vector3d anchor = T_map_kf * anchor_kf_;
+  anchor_ = anchor - plane.SignedDistance(anchor) * plane.n;
+  // A wall's direction follows from its plane; a floor's does not and turns with the keyframe.
+  const Eigen::Vector3d along = kind_ == SurfaceKind::kWall ? AxesOf(plane, kind_, Eigen::Vector3d::UnitZ()).along
+                                                            : Eigen::Vector3d(T_map_kf.linear() * along_kf_);
+  along_ = (along - plane.n.dot(along) * plane.n).normalized();
+  across_ = kind_ == SurfaceKind::kWall ? along_.cross(plane.n) : plane.n.cross(along_);
+}
+
+void SurfacePatch::Mark(const Eigen::Vector3d& p) {
+  const Eigen::Vector2d at = Coordinates(p);
+  lo_ = lo_.cwiseMin(at);
+  hi_ = hi_.cwiseMax(at);
+  if (index_.Insert(VoxelKey({at.x() / kCell_m, at.y() / kCell_m, 0})).second) cells_.push_back(at.cast<float>());
+}
+
+std::vector<Eigen::Vector3d> SurfacePatch::CellPoints() const {
+  std::vector<Eigen::Vector3d> points;
+  points.reserve(cells_.size());
+  for (const Eigen::Vector2f& at : cells_) points.push_back(Point(at.cast<double>()));
+  return points;
+}
+
+double SurfacePatch::ShareCovered(const SurfacePatch& b, double distance_m) const {
+  if (b.cells_.empty()) return 0;
+  size_t covered = 0;
+  for (const Eigen::Vector3d& p : b.CellPoints()) {
+    if (std::abs(plane_.SignedDistance(p)) > distance_m) continue;
+    const Eigen::Vector2d at = Coordinates(p) / kCell_m;
+    bool found = false;
+    for (int k = 0; k < 9 && !found; ++k) found = index_.Find(VoxelKey({at.x() + k % 3 - 1, at.y() + k / 3 - 1, 0})) != VoxelIndex::kNone;
+    covered += found ? 1 : 0;
+  }
+  return static_cast<double>(covered) / static_cast<double>(b.cells_.size());
+}
+
+double SurfacePatch::area_m2() const { return kCell_m * kCell_m * static_cast<double>(cells_.size()); }
+
+}  // namespace plumb::runtime

@@ -1,0 +1,54 @@
+// Where on a map surface points were seen.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <vector>
+
+#include "runtime/mapping/sgraph.h"
+#include "runtime/odometry/voxel_index.h"
+
+namespace plumb::runtime {
+
+// Occupied cells on a plane, in coordinates (along, across) of AxesOf() about an anchor point. The anchor is kept in the frame of a keyframe,
+// so that the patch follows when the optimizer moves it; everything that is returned is in the map frame.
+class SurfacePatch {
+ public:
+  // `keyframe` is the first that saw the surface and T_map_kf its pose; `at` a point near the plane.
+  SurfacePatch(uint32_t keyframe, const Eigen::Isometry3d& T_map_kf, const Plane& plane, SurfaceKind kind, const Eigen::Vector3d& at);
+
+  // Marks the cell of p and extends the bounds to p.
+  void Mark(const Eigen::Vector3d& p);
+  // Moves onto the new plane after it or the keyframe's pose has changed.
+  void Follow(const Eigen::Isometry3d& T_map_kf, const Plane& plane);
+
+  [[nodiscard]] uint32_t keyframe() const { return keyframe_; }
+  [[nodiscard]] SurfaceKind kind() const { return kind_; }
+  [[nodiscard]] const Plane& plane() const { return plane_; }
+  // Where the normal points, if the surface has turned with the keyframe.
+  [[nodiscard]] Eigen::Vector3d NormalGuess(const Eigen::Isometry3d& T_map_kf) const { return T_map_kf.linear() * normal_kf_; }
+  [[nodiscard]] Eigen::Vector2d Coordinates(const Eigen::Vector3d& p) const { return {along_.dot(p - anchor_), across_.dot(p - anchor_)}; }
+  [[nodiscard]] Eigen::Vector3d Point(const Eigen::Vector2d& coordinates) const {
+    return anchor_ + coordinates.x() * along_ + coordinates.y() * across_;
+  }
+  // Bounds of what was marked.
+  [[nodiscard]] const Eigen::Vector2d& lo() const { return lo_; }
+  [[nodiscard]] const Eigen::Vector2d& hi() const { return hi_; }
+  // The first point marked in every cell, in that order.
+  [[nodiscard]] std::vector<Eigen::Vector3d> CellPoints() const;
+  [[nodiscard]] double area_m2() const;
+  // Share of b's cells that lie within distance_m of this plane and on or next to one of this patch's cells.
+  [[nodiscard]] double ShareCovered(const SurfacePatch& b, double distance_m) const;
+
+ private:
+  uint32_t keyframe_;
+  SurfaceKind kind_;
+  Plane plane_;
+  Eigen::Vector3d anchor_kf_, along_kf_, normal_kf_;  // keyframe frame
+  Eigen::Vector3d anchor_, along_, across_;           // map frame
+  VoxelIndex index_;
+  std::vector<Eigen::Vector2f> cells_;                // coordinates of each cell's first point
+  Eigen::Vector2d lo_, hi_;
+};
+
+}  // namespace plumb::runtime

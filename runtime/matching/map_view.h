@@ -1,0 +1,52 @@
+// The map as matching needs it: its walls as segments, its floor, and a fixed sample of its laser rays.
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "runtime/mapping/sgraph.h"
+#include "runtime/matching/matcher.h"
+
+namespace plumb::runtime {
+
+struct MapWall {
+  uint32_t surface = 0;  // SGraph::surfaces
+  Eigen::Vector2d start = Eigen::Vector2d::Zero(), end = Eigen::Vector2d::Zero();
+  Eigen::Vector2d normal = Eigen::Vector2d::UnitX(), along = Eigen::Vector2d::UnitY();
+  double length_m = 0, z_min_m = 0, z_max_m = 0;
+};
+
+struct MapRay {
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero(), direction = Eigen::Vector3d::UnitX();
+  double range_m = 0;
+  int wall = -1;  // index into MapView::walls of the wall it ended on, -1 if on none
+};
+
+// How ranges are distributed in this map, whatever the building: what a ray would show if the plan said nothing about it.
+class RangeBackground {
+ public:
+  explicit RangeBackground(std::span<const MapRay> rays);
+  [[nodiscard]] double Density(double range_m) const;  // 1/m, positive everywhere
+  [[nodiscard]] double Below(double range_m) const;    // probability of a shorter range, in (0, 1]
+
+ private:
+  std::vector<double> density_, below_;
+};
+
+// Frame: the map's, shifted by center_m in x and y.
+struct MapView {
+  Eigen::Vector2d center_m = Eigen::Vector2d::Zero();  // map frame: middle of the walls, weighted by length
+  std::vector<MapWall> walls;                          // at least 0.4 m long and upright
+  double wall_length_m = 0;                            // of all of them
+  std::optional<double> floor_z_m, ceiling_z_m;
+  double sensor_z_m = 0, lowest_z_m = 0;               // of the first keyframe's sensor; of the points (1st percentile)
+  std::vector<MapRay> rays;                            // every k-th is again spread over keyframes and directions
+  RangeBackground background{{}};
+};
+
+// Deterministic. Linear in points, plus rays x walls.
+[[nodiscard]] MapView ViewMap(const SGraph& map, const MatcherOptions& options);
+
+}  // namespace plumb::runtime

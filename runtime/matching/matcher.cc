@@ -1,0 +1,192 @@
+#include "runtime/matching/matcher.h"
+
+#include <fmt/format.h>
+#include <oneapi/tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "runtime/matching/hypotheses.h"
+#include "runtime/matching/mirror.h"
+#include "runtime/matching/posterior.h"
+
+namespace plumb::runtime {
+namespace {
+
+constexpr size_t kCoarseRays = 500;
+constexpr int kFinalistsPerKept = 2;
+constexpr size_t kAliasedFinalists = 8;
+constexpr double kSensorHeights_m[] = {0.3, 0.6, 0.9, 1.2, 1.5};
+constexpr double kLowestMargin_m = 0.1;
+
+// Finds the likely poses of a map in one plan.
+class PoseSearch {
+ public:
+  PoseSearch(const AGraph& graph, const MatcherOptions& search_options) : plan(graph), options(search_options) {}
+
+  // Refined and judged by all rays, best first.
+  [[nodiscard]] std::vector<Candidate> Finalists(const MapView& map) const {
+    std::vector<PlanarPose> poses;
+    for (const Proposal& p : ProposePoses(plan, map, options)) poses.push_back(p.pose);
+    std::vector<Candidate> candidates = SortAndMerge(Judged(map, poses));
+    if (!plan.plan().aliases.empty()) {
+      const std::vector<Candidate> aliased = Judged(map, Aliases(candidates));
+      candidates.insert(candidates.end(), aliased.begin(), aliased.end());
+      candidates = SortAndMerge(std::move(candidates));
+    }
+    candidates.resize(std::min(candidates.size(), static_cast<size_t>(kFinalistsPerKept * options.keep_hypotheses)));
+    oneapi::tbb::parallel_for(size_t{0}, candidates.size(), [&](size_t i) {
+      candidates[i].rays = JudgeRays(plan, map, candidates[i].fit.pose, options);
+    });
+    return SortAndMerge(std::move(candidates));
+  }
+
+  const PlanIndex plan;
+  const MatcherOptions options;
+
+ private:
+
+  [[nodiscard]] size_t CoarseStride(const MapView& map) const { return std::max<size_t>(1, map.rays.size() / kCoarseRays); }
+
+  [[nodiscard]] StoreyId StoreyAt(const MapView& map, double z_m) const {
+    const double floor_z_m = (map.floor_z_m ? *map.floor_z_m : map.sensor_z_m - 0.6) + z_m;
+    const auto nearest = std::min_element(plan.levels().begin(), plan.levels().end(), [&](const PlanLevel& a, const PlanLevel& b) {
+      return std::abs(a.floor_z_m - floor_z_m) < std::abs(b.floor_z_m - floor_z_m);
+    });
+    return nearest == plan.levels().end() ? StoreyId() : nearest->storey;
+  }
+
+  // The heights that a pose may have. Walls look alike at any height, so only without a floor or ceiling is there more than one.
+  [[nodiscard]] std::vector<double> Heights(const MapView& map, const PlanarPose& pose) const {
+    if (map.floor_z_m || map.ceiling_z_m) return {pose.z_m};
+    std::vector<double> heights;
+    for (double height_m : kSensorHeights_m) {
+      if (map.sensor_z_m - height_m > map.lowest_z_m + kLowestMargin_m) continue;  // points below the floor
+      heights.push_back(pose.z_m + height_m - 0.6);
+    }
+    if (heights.empty()) heights.push_back(pose.z_m + (map.sensor_z_m - map.lowest_z_m) - 0.6);
+    return heights;
+  }
+
+  [[nodiscard]] Candidate Judged(const MapView& map, const WallFit& fit, size_t stride) const {
+    Candidate best;
+    for (double z_m : Heights(map, fit.pose)) {
+      Candidate c;
+      c.fit = fit;
+      c.fit.pose.z_m = z_m;
+      c.rays = JudgeRays(plan, map, c.fit.pose, options, stride);
+      if (best.fit.pairs.empty() || c.rays.log_likelihood > best.rays.log_likelihood) best = c;
+    }
+    best.storey = StoreyAt(map, best.fit.pose.z_m);
+    return best;
+  }
+
+  // Refined and judged by a few rays.
+  [[nodiscard]] std::vector<Candidate> Judged(const MapView& map, const std::vector<PlanarPose>& poses) const {
+    std::vector<Candidate> candidates(poses.size());
+    const size_t stride = CoarseStride(map);
+    oneapi::tbb::parallel_for(size_t{0}, poses.size(), [&](size_t i) {
+      const WallFit fit = RefineOnWalls(plan, map, poses[i]);
+      if (!fit.pairs.empty()) candidates[i] = Judged(map, fit, stride);
+    });
+    std::erase_if(candidates, [](const Candidate& c) { return c.fit.pairs.empty(); });
+    return candidates;
+  }
+
+  // Where the plan's own symmetries take the best: each must be beaten explicitly.
+  [[nodiscard]] std::vector<PlanarPose> Aliases(const std::vector<Candidate>& sorted) const {
+    std::vector<PlanarPose> poses;
+    const Eigen::Vector3d& origin = plan.plan().origin;
+    for (size_t i = 0; i < std::min(sorted.size(), kAliasedFinalists); ++i) {
+      for (const Alias& alias : plan.plan().aliases) {
+        const PlanarPose& pose = sorted[i].fit.pose;
+        PlanarPose turn;
+        turn.yaw_rad = alias.yaw_rad;
+        // Aliases are given in the plan frame, poses in the mesh's.
+        const Eigen::Vector2d t = turn.rotation() * (pose.t_m + origin.head<2>()) + alias.translation.head<2>() - origin.head<2>();
+        poses.push_back({WrapAngle(pose.yaw_rad + alias.yaw_rad), t, pose.z_m + alias.translation.z()});
+      }
+    }
+    return poses;
+  }
+};
+
+}  // namespace
+
+std::string MatcherOptions::Check() const {
+  const auto bad = [](const char* name, double value, const char* rule) {
+    return fmt::format("MatcherOptions.{} = {}; must be {}", name, value, rule);
+  };
+  if (!(yaw_bin_rad > 0.001 && yaw_bin_rad < 0.2)) return bad("yaw_bin_rad", yaw_bin_rad, "in (0.001, 0.2)");
+  if (!(vote_cell_m >= 0.02 && vote_cell_m <= 1)) return bad("vote_cell_m", vote_cell_m, "in [0.02, 1]");
+  if (!(nms_radius_m >= 0)) return bad("nms_radius_m", nms_radius_m, "at least 0");
+  if (max_hypotheses < 1) return bad("max_hypotheses", max_hypotheses, "at least 1");
+  if (keep_hypotheses < 2) return bad("keep_hypotheses", keep_hypotheses, "at least 2");
+  if (!(deviation_sigma_m > 0)) return bad("deviation_sigma_m", deviation_sigma_m, "positive");
+  if (!(range_sigma_m > 0)) return bad("range_sigma_m", range_sigma_m, "positive");
+  if (rays_per_keyframe < 1) return bad("rays_per_keyframe", rays_per_keyframe, "at least 1");
+  if (max_keyframes < 1) return bad("max_keyframes", max_keyframes, "at least 1");
+  if (!(rays_per_independent >= 1)) return bad("rays_per_independent", rays_per_independent, "at least 1");
+  if (!(accept_probability > 0.5 && accept_probability < 1)) return bad("accept_probability", accept_probability, "in (0.5, 1)");
+  if (!(accept_margin_nats > 0)) return bad("accept_margin_nats", accept_margin_nats, "positive");
+  if (!(accept_sigma_xy_m > 0)) return bad("accept_sigma_xy_m", accept_sigma_xy_m, "positive");
+  if (!(accept_sigma_yaw_rad > 0)) return bad("accept_sigma_yaw_rad", accept_sigma_yaw_rad, "positive");
+  if (accept_min_planes < 3) return bad("accept_min_planes", accept_min_planes, "at least 3");
+  if (!(accept_min_consistent_ratio >= 0 && accept_min_consistent_ratio <= 1)) {
+    return bad("accept_min_consistent_ratio", accept_min_consistent_ratio, "in [0, 1]");
+  }
+  if (!(accept_max_through_ratio >= 0)) return bad("accept_max_through_ratio", accept_max_through_ratio, "at least 0");
+  if (!(accept_scale_error > 0)) return bad("accept_scale_error", accept_scale_error, "positive");
+  return {};
+}
+
+struct Matcher::Impl {
+  PoseSearch search;
+  AGraph mirror_image;
+  PoseSearch mirrored;
+
+  Impl(const AGraph& plan, const MatcherOptions& options)
+      : search(plan, options), mirror_image(MirrorImage(plan)), mirrored(mirror_image, options) {}
+
+  // Log-likelihood of the best pose in the mirror image, 0 if there is none or if it is the plan itself.
+  [[nodiscard]] double MirroredLikelihood(const MapView& map, const PlanarPose& pose) const {
+    const std::vector<Candidate> candidates = mirrored.Finalists(map);
+    if (candidates.empty() || IsOwnMirrorImage(search.plan, pose, candidates.front().fit.pose)) return 0;
+    return candidates.front().rays.log_likelihood;
+  }
+};
+
+Matcher::Matcher(const AGraph& plan, const MatcherOptions& options) : impl_(std::make_unique<Impl>(plan, options)) {}
+Matcher::~Matcher() = default;
+
+MatchResult Matcher::Match(const SGraph& map) const {
+  const PoseSearch& search = impl_->search;
+  const MapView view = ViewMap(map, search.options);
+  MatchResult result;
+  if (search.plan.faces().empty() || search.plan.plan().mesh.triangles.empty()) {
+    result.reason = "the plan has no walls";
+    return result;
+  }
+  if (view.walls.size() < 2 || view.rays.empty()) {
+    result.reason = "the map has fewer than two walls";
+    return result;
+  }
+  const std::vector<Candidate> finalists = search.Finalists(view);
+  const AGraph& plan = search.plan.plan();
+  result = Decide(finalists, view, plan, search.options);
+  if (result.verdict != MatchResult::Verdict::kUnique) return result;
+  return Decide(finalists, view, plan, search.options, impl_->MirroredLikelihood(view, finalists.front().fit.pose));
+}
+
+double Matcher::Score(const SGraph& map, const Eigen::Isometry3d& T_plan_map) const {
+  const PoseSearch& search = impl_->search;
+  const MapView view = ViewMap(map, search.options);
+  PlanarPose pose;
+  pose.yaw_rad = std::atan2(T_plan_map.linear()(1, 0), T_plan_map.linear()(0, 0));
+  const Eigen::Vector3d t = T_plan_map.translation() - search.plan.plan().origin;
+  pose.t_m = t.head<2>() + pose.rotation() * view.center_m;
+  pose.z_m = t.z();
+  return JudgeRays(search.plan, view, pose, search.options).log_likelihood;
+}
+
+}  // namespace plumb::runtime

@@ -1,0 +1,126 @@
+#include "runtime/matching/posterior.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+namespace plumb::runtime {
+namespace {
+
+constexpr double kSamePlace_m = 0.5, kSameYaw_rad = 0.0873, kSameHeight_m = 1.0;
+constexpr double kUnknownSigma = 1e3;
+
+// A direction that no wall fixes has no finite sigma; a weak prior keeps the inverse defined and says "unknown".
+void SetSigmas(const Eigen::Matrix3d& information, Hypothesis& hypothesis) {
+  const Eigen::Matrix3d covariance = (information + 1 / (kUnknownSigma * kUnknownSigma) * Eigen::Matrix3d::Identity()).inverse();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> xy(covariance.topLeftCorner<2, 2>());
+  hypothesis.sigma_xy_m = std::sqrt(std::max(xy.eigenvalues()[1], 0.0));
+  hypothesis.sigma_yaw_rad = std::sqrt(std::max(covariance(2, 2), 0.0));
+}
+
+Hypothesis ToHypothesis(const Candidate& candidate, const MapView& map, const Eigen::Vector3d& origin) {
+  Hypothesis h;
+  const PlanarPose& pose = candidate.fit.pose;
+  const Eigen::Matrix2d R = pose.rotation();
+  h.T_plan_map.linear().topLeftCorner<2, 2>() = R;
+  h.T_plan_map.translation().head<2>() = origin.head<2>() + pose.t_m - R * map.center_m;
+  h.T_plan_map.translation().z() = origin.z() + pose.z_m;
+  h.storey = candidate.storey;
+  h.log_likelihood = candidate.rays.log_likelihood;
+  h.consistent_planes = candidate.fit.consistent_planes;
+  h.consistent_ratio = candidate.fit.consistent_ratio;
+  h.explained_ratio = candidate.rays.explained_ratio;
+  h.through_ratio = candidate.rays.through_ratio;
+  SetSigmas(candidate.fit.information, h);
+  return h;
+}
+
+void SetProbabilities(MatchResult& result, double outside) {
+  double highest = outside;
+  for (const Hypothesis& h : result.hypotheses) highest = std::max(highest, h.log_likelihood);
+  double sum = std::exp(outside - highest);
+  for (const Hypothesis& h : result.hypotheses) sum += std::exp(h.log_likelihood - highest);
+  result.probability_outside = std::exp(outside - highest) / sum;
+  for (Hypothesis& h : result.hypotheses) h.probability = std::exp(h.log_likelihood - highest) / sum;
+}
+
+}  // namespace
+
+bool Distinct(const Candidate& a, const Candidate& b) {
+  const PlanarPose &p = a.fit.pose, &q = b.fit.pose;
+  return (p.t_m - q.t_m).norm() > kSamePlace_m || std::abs(WrapAngle(p.yaw_rad - q.yaw_rad)) > kSameYaw_rad ||
+         std::abs(p.z_m - q.z_m) > kSameHeight_m;
+}
+
+std::vector<Candidate> SortAndMerge(std::vector<Candidate> candidates) {
+  std::stable_sort(candidates.begin(), candidates.end(),
+                   [](const Candidate& a, const Candidate& b) { return a.rays.log_likelihood > b.rays.log_likelihood; });
+  std::vector<Candidate> kept;
+  for (Candidate& c : candidates) {
+    if (std::all_of(kept.begin(), kept.end(), [&](const Candidate& k) { return Distinct(k, c); })) kept.push_back(std::move(c));
+  }
+  return kept;
+}
+
+int RequiredPlanes(size_t num_rooms, const MatcherOptions& options) {
+  return options.accept_min_planes + static_cast<int>(std::lround(std::log10(std::max<double>(1, static_cast<double>(num_rooms)))));
+}
+
+std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, int required_planes, const MatcherOptions& options) {
+  const WallFit& fit = candidate.fit;
+  if (hypothesis.sigma_xy_m > options.accept_sigma_xy_m || hypothesis.sigma_yaw_rad > options.accept_sigma_yaw_rad) {
+    return "too few walls agree to fix the position in every direction";
+  }
+  if (fit.consistent_planes < required_planes) {
+    return fmt::format("only {} wall planes agree with the plan, {} are asked for", fit.consistent_planes, required_planes);
+  }
+  if (fit.consistent_ratio < options.accept_min_consistent_ratio) {
+    return fmt::format("only {:.0f} % of the walls seen agree with the plan", 100 * fit.consistent_ratio);
+  }
+  if (candidate.rays.through_ratio > options.accept_max_through_ratio) {
+    return fmt::format("{:.1f} % of the rays went through walls of the plan", 100 * candidate.rays.through_ratio);
+  }
+  if (std::abs(fit.scale_error) + 2 * fit.sigma_scale > options.accept_scale_error) {
+    return fmt::format("the scale is {:+.1f} +- {:.1f} % off the plan's", 100 * fit.scale_error, 100 * fit.sigma_scale);
+  }
+  return {};
+}
+
+MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, const AGraph& plan, const MatcherOptions& options,
+                   double mirrored) {
+  MatchResult result;
+  if (sorted.empty()) {
+    result.reason = "no pose in the plan puts the map's walls on planned ones";
+    return result;
+  }
+  const size_t n = std::min(sorted.size(), static_cast<size_t>(options.keep_hypotheses));
+  for (size_t i = 0; i < n; ++i) result.hypotheses.push_back(ToHypothesis(sorted[i], map, plan.origin));
+  SetProbabilities(result, std::max(0.0, mirrored));
+  const Hypothesis& best = result.hypotheses.front();
+  if (best.log_likelihood < options.accept_margin_nats) {
+    result.reason = fmt::format("the best pose is no better than a place outside the plan ({:+.1f} nats)", best.log_likelihood);
+    return result;
+  }
+  if (best.log_likelihood - mirrored < options.accept_margin_nats) {
+    result.reason = fmt::format("a mirror image of the plan fits about as well ({:+.1f} nats)", mirrored - best.log_likelihood);
+    return result;
+  }
+  result.reason = Doubt(sorted.front(), best, RequiredPlanes(plan.rooms.size(), options), options);
+  if (!result.reason.empty()) return result;
+  const auto rivals = std::count_if(result.hypotheses.begin() + 1, result.hypotheses.end(), [&](const Hypothesis& h) {
+    return best.log_likelihood - h.log_likelihood < options.accept_margin_nats;
+  });
+  if (rivals > 0) {
+    result.verdict = MatchResult::Verdict::kAmbiguous;
+    result.reason = fmt::format("{} other places in the plan look alike", rivals);
+  } else if (best.probability < options.accept_probability) {
+    result.reason = fmt::format("its probability is only {:.4f}", best.probability);
+  } else {
+    result.verdict = MatchResult::Verdict::kUnique;
+  }
+  return result;
+}
+
+}  // namespace plumb::runtime

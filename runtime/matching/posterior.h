@@ -1,0 +1,37 @@
+// From judged poses to a verdict.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runtime/matching/matcher.h"
+#include "runtime/matching/ray_likelihood.h"
+#include "runtime/matching/refine.h"
+
+namespace plumb::runtime {
+
+struct Candidate {
+  WallFit fit;
+  RayEvidence rays;
+  StoreyId storey;
+};
+
+// Two poses of one map that no one would call the same place.
+[[nodiscard]] bool Distinct(const Candidate& a, const Candidate& b);
+
+// Best first; of those that are about the same pose only the best.
+[[nodiscard]] std::vector<Candidate> SortAndMerge(std::vector<Candidate> candidates);
+
+// `sorted`: from SortAndMerge. Poses are given as T_plan_map, AGraph::origin and the map's centre put back.
+// `mirrored`: log-likelihood of the best pose in the plan's mirror image; "outside the plan" is at least as likely.
+[[nodiscard]] MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, const AGraph& plan,
+                                 const MatcherOptions& options, double mirrored = 0);
+
+// Planes that must agree in a plan of so many rooms: the more there are, the more of them look alike by chance.
+[[nodiscard]] int RequiredPlanes(size_t num_rooms, const MatcherOptions& options);
+
+// Why this pose alone, rivals aside, is not yet trusted; empty if it is.
+[[nodiscard]] std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, int required_planes,
+                                const MatcherOptions& options);
+
+}  // namespace plumb::runtime

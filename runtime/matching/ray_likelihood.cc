@@ -1,0 +1,128 @@
+#include "runtime/matching/ray_likelihood.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace plumb::runtime {
+namespace {
+
+constexpr double kHit = 0.70, kShort = 0.22, kRandom = 0.08;
+constexpr double kAsPlanned = 0.75;        // of the hits; the others are on walls that deviate
+constexpr double kThrough = 0.018;         // likelihood ratio of passing through a solid wall: -4 nats
+constexpr double kThroughDepth_m = 0.6;    // beyond any deviation
+constexpr double kOpeningMargin_m = 0.3;
+constexpr double kMinIncidence = 0.25;
+constexpr double kNormalsAgree = 2.5, kNormalsDiffer = 0.1;
+constexpr double kSameNormal = 0.94;       // cosine of 20 degrees
+// What a wrong plan still gains per judged ray at the pose that suits it best. It is the price of "in the plan".
+constexpr double kForeignGain = 0.5;
+
+double Gaussian(double x, double sigma) {
+  const double t = x / sigma;
+  return std::exp(-0.5 * t * t) / (sigma * std::sqrt(2 * std::numbers::pi));
+}
+
+struct RayJudgement {
+  double log_ratio = 0;
+  bool judged = false, explained = false, through = false;
+};
+
+class Judge {
+ public:
+  Judge(const PlanIndex& plan, const MapView& map, const PlanarPose& pose, const MatcherOptions& options)
+      : plan_(plan), map_(map), pose_(pose), R_(pose.rotation()), model_{options.range_sigma_m, options.deviation_sigma_m} {}
+
+  [[nodiscard]] RayJudgement operator()(const MapRay& ray) const {
+    Eigen::Vector3d origin, direction;
+    origin << R_ * ray.origin.head<2>() + pose_.t_m, ray.origin.z() + pose_.z_m;
+    direction << R_ * ray.direction.head<2>(), ray.direction.z();
+    const PlanHit hit = plan_.Cast({origin.cast<float>(), direction.cast<float>()});
+    if (!hit.first.hit()) return {};
+    RayJudgement result;
+    const double background = map_.background.Density(ray.range_m);
+    double hit_density = HitDensity(ray, direction, hit.first);
+    double furthest_m = hit.first.range_m;
+    if (hit.soft) {
+      hit_density *= 0.5;
+      if (!hit.solid.hit()) {
+        // Beyond the soft thing is the open: no evidence against, only for.
+        result.log_ratio = std::max(0.0, std::log(kHit * hit_density / background + 0.5));
+        return result;
+      }
+      hit_density += 0.5 * HitDensity(ray, direction, hit.solid);
+      furthest_m = hit.solid.range_m;
+    }
+    const double incidence = std::max(std::abs(hit.solid.normal.cast<double>().dot(direction)), kMinIncidence);
+    const double beyond_m = (ray.range_m - furthest_m) * incidence;
+    double ratio = kHit * hit_density / background;
+    result.explained = ratio > 1;
+    if (ray.range_m < furthest_m) {
+      ratio += kShort / map_.background.Below(furthest_m) + kRandom;
+    } else if (beyond_m > 3 * model_.deviation_sigma_m && !result.explained) {
+      if (plan_.NearOpening(origin + furthest_m * direction, kOpeningMargin_m)) return {};
+      ratio += kThrough;
+      result.through = beyond_m > kThroughDepth_m && std::abs(hit.solid.normal.z()) < 0.5f;
+    } else {
+      ratio += kRandom;
+    }
+    result.judged = true;
+    result.log_ratio = std::log(ratio);
+    return result;
+  }
+
+ private:
+  [[nodiscard]] double HitDensity(const MapRay& ray, const Eigen::Vector3d& direction, const RayHit& hit) const {
+    int normals = 0;
+    if (ray.wall >= 0) {
+      const Eigen::Vector2d n = R_ * map_.walls[ray.wall].normal;
+      normals = n.dot(hit.normal.cast<double>().head<2>()) > kSameNormal ? 1 : -1;
+    }
+    return model_.HitDensity(ray.range_m, hit.range_m, std::abs(hit.normal.cast<double>().dot(direction)), normals);
+  }
+
+  const PlanIndex& plan_;
+  const MapView& map_;
+  const PlanarPose& pose_;
+  Eigen::Matrix2d R_;
+  RayModel model_;
+};
+
+}  // namespace
+
+double RayModel::HitDensity(double range_m, double expected_m, double incidence, int normals) const {
+  if (expected_m < 0) return 0;
+  const double slant = 1 / std::max(incidence, kMinIncidence);  // a wall's offset shows larger along a grazing ray
+  const double planned_sigma_m = range_sigma_m * std::hypot(1.0, slant);
+  const double deviated_sigma_m = std::hypot(range_sigma_m, 2 * deviation_sigma_m * slant);
+  const double off_m = range_m - expected_m;
+  const double density = kAsPlanned * Gaussian(off_m, planned_sigma_m) + (1 - kAsPlanned) * Gaussian(off_m, deviated_sigma_m);
+  return density * (normals > 0 ? kNormalsAgree : normals < 0 ? kNormalsDiffer : 1.0);
+}
+
+RayEvidence JudgeRays(const PlanIndex& plan, const MapView& map, const PlanarPose& pose, const MatcherOptions& options, size_t stride) {
+  const Judge judge(plan, map, pose, options);
+  RayEvidence evidence;
+  double sum = 0;
+  size_t used = 0;
+  int explained = 0, through = 0;
+  for (size_t i = 0; i < map.rays.size(); i += stride) {
+    const RayJudgement j = judge(map.rays[i]);
+    ++used;
+    sum += j.log_ratio;
+    evidence.judged += j.judged;
+    explained += j.explained;
+    through += j.through;
+  }
+  if (used == 0) return evidence;
+  const double scale = static_cast<double>(map.rays.size()) / static_cast<double>(used);
+  // Charged for every ray, judged or not: a pose from which nothing of the plan is seen explains nothing.
+  evidence.log_likelihood = scale * (sum - kForeignGain * static_cast<double>(used)) / options.rays_per_independent;
+  if (evidence.judged > 0) {
+    evidence.explained_ratio = static_cast<double>(explained) / evidence.judged;
+    evidence.through_ratio = static_cast<double>(through) / evidence.judged;
+  }
+  return evidence;
+}
+
+}  // namespace plumb::runtime

@@ -1,0 +1,382 @@
+#include "runtime/matching/refine.h"
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+
+namespace plumb::runtime {
+namespace {
+
+constexpr double kMaxOffset_m = 0.6, kMaxTurn_rad = 0.35;  // a built wall further off its plan is not taken for it
+constexpr double kPairOffsetSigma_m = 0.15, kPairTurnSigma_rad = 0.1;
+constexpr double kMinOverlap_m = 0.3, kMinOverlapRatio = 0.3;
+constexpr double kCoplanar_m = 0.03;
+constexpr double kWallSigma_m = 0.02;                    // map noise and building tolerance of a wall as planned
+constexpr double kTolerance_m = 3 * kWallSigma_m;        // within: as planned
+constexpr double kFullVoteLength_m = 2.0;                // longer walls do not count more: each may deviate as a whole
+constexpr double kMinFaceOverlap_m = 0.5;
+constexpr double kGroupWidth_m = 0.12;
+constexpr double kDirectionWidth_rad = 0.26;
+constexpr double kMinMajority = 1.5, kMinMajorityMargin = 0.75;  // in walls
+constexpr size_t kMaxConsensusGroups = 24;
+
+// The pairs of one physical wall: they move together, so they vote once.
+struct WallGroup {
+  std::vector<size_t> pairs;
+  double weight = 0;    // in walls: 1 from kFullVoteLength_m on
+  double overlap_m = 0;
+  Eigen::Vector2d normal = Eigen::Vector2d::UnitX();  // of the first pair's face
+};
+
+// Displacement of what the map has there from the plan's face, along its normal.
+double PairDisplacement(const PlanFace& face, const WallPair& pair, const PlanarPose& pose) {
+  return FaceDistance(face, pose, 0.5 * (pair.p + pair.q), nullptr);
+}
+
+// Parts of a wall that do not stand off alike (its ends and bends, a cupboard before it) make groups of their own.
+std::vector<WallGroup> GroupByWall(const PlanIndex& plan, const std::vector<WallPair>& pairs, const PlanarPose& pose) {
+  std::vector<size_t> order(pairs.size());
+  std::iota(order.begin(), order.end(), size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return pairs[a].overlap_m > pairs[b].overlap_m; });
+  std::map<uint32_t, std::vector<WallGroup>> by_wall;
+  for (size_t i : order) {
+    const PlanFace& face = plan.faces()[pairs[i].face];
+    std::vector<WallGroup>& some = by_wall[face.physical_wall];
+    auto group = std::find_if(some.begin(), some.end(), [&](const WallGroup& g) {
+      const double cosine = g.normal.dot(face.normal);
+      if (std::abs(cosine) < 0.9) return false;
+      const WallPair& first = pairs[g.pairs.front()];
+      const double off_m = PairDisplacement(face, pairs[i], pose) - std::copysign(1.0, cosine) * PairDisplacement(plan.faces()[first.face], first, pose);
+      return std::abs(off_m) < kGroupWidth_m;
+    });
+    if (group == some.end()) {
+      group = some.insert(some.end(), WallGroup());
+      group->normal = face.normal;
+    }
+    group->pairs.push_back(i);
+    group->overlap_m += pairs[i].overlap_m;
+  }
+  std::vector<WallGroup> groups;
+  for (const auto& [wall, some] : by_wall) groups.insert(groups.end(), some.begin(), some.end());
+  for (WallGroup& group : groups) group.weight = std::min(1.0, group.overlap_m / kFullVoteLength_m);
+  std::stable_sort(groups.begin(), groups.end(), [](const WallGroup& a, const WallGroup& b) { return a.overlap_m > b.overlap_m; });
+  return groups;
+}
+
+class WallProblem {
+ public:
+  WallProblem(const PlanIndex& plan, const std::vector<WallPair>& pairs, const PlanarPose& pose)
+      : plan_(plan), pairs_(pairs), groups_(GroupByWall(plan, pairs, pose)) {}
+
+  [[nodiscard]] const std::vector<WallGroup>& groups() const { return groups_; }
+  [[nodiscard]] const PlanFace& face(size_t pair) const { return plan_.faces()[pairs_[pair].face]; }
+  [[nodiscard]] const WallPair& pair(size_t i) const { return pairs_[i]; }
+
+  // Mean square distance of a group's pairs at their two ends.
+  [[nodiscard]] double SquaredDistance(const WallGroup& group, const PlanarPose& pose) const {
+    double sum = 0;
+    for (size_t i : group.pairs) {
+      const double rp = FaceDistance(face(i), pose, pairs_[i].p, nullptr), rq = FaceDistance(face(i), pose, pairs_[i].q, nullptr);
+      sum += pairs_[i].overlap_m * 0.5 * (rp * rp + rq * rq);
+    }
+    return sum / group.overlap_m;
+  }
+
+  // Mean displacement of the built wall along the group's normal.
+  [[nodiscard]] double Displacement(const WallGroup& group, const PlanarPose& pose) const {
+    double sum = 0;
+    for (size_t i : group.pairs) {
+      const double sign = face(i).normal.dot(group.normal) < 0 ? -1 : 1;
+      sum += sign * pairs_[i].overlap_m * PairDisplacement(face(i), pairs_[i], pose);
+    }
+    return sum / group.overlap_m;
+  }
+
+  // Adds weight * (J^T J, J^T r) of a group, J by (x, y, yaw, scale).
+  void AddNormalEquations(const WallGroup& group, const PlanarPose& pose, double weight, Eigen::Matrix4d& H, Eigen::Vector4d& g) const {
+    for (size_t i : group.pairs) {
+      const double w = weight * 0.5 * pairs_[i].overlap_m / group.overlap_m;
+      for (const Eigen::Vector2d& x : {pairs_[i].p, pairs_[i].q}) {
+        Eigen::Vector4d J;
+        const double r = FaceDistance(face(i), pose, x, &J);
+        H += w * J * J.transpose();
+        g += w * J * r;
+      }
+    }
+  }
+
+ private:
+  const PlanIndex& plan_;
+  const std::vector<WallPair>& pairs_;
+  std::vector<WallGroup> groups_;
+};
+
+// Median of the pairs' own yaws, weighted by overlap.
+double MedianYaw(const PlanIndex& plan, const MapView& map, const std::vector<WallPair>& pairs, double yaw_rad) {
+  std::vector<std::pair<double, double>> off;  // from yaw_rad, weight
+  double total = 0;
+  for (const WallPair& pair : pairs) {
+    const Eigen::Vector2d &s = map.walls[pair.wall].normal, &a = plan.faces()[pair.face].normal;
+    off.emplace_back(WrapAngle(std::atan2(Cross(s, a), s.dot(a)) - yaw_rad), pair.overlap_m);
+    total += pair.overlap_m;
+  }
+  std::sort(off.begin(), off.end());
+  double below = 0;
+  for (const auto& [off_rad, weight] : off) {
+    below += weight;
+    if (below >= 0.5 * total) return WrapAngle(yaw_rad + off_rad);
+  }
+  return yaw_rad;
+}
+
+// Of the translations that put two non-parallel walls exactly onto their plan, and of none, the one with the smallest truncated cost.
+Eigen::Vector2d ConsensusTranslation(const WallProblem& problem, const PlanarPose& pose) {
+  const std::vector<WallGroup>& groups = problem.groups();
+  const size_t n = std::min(groups.size(), kMaxConsensusGroups);
+  std::vector<double> displacement(groups.size());
+  for (size_t i = 0; i < groups.size(); ++i) displacement[i] = problem.Displacement(groups[i], pose);
+  constexpr double kTruncation_m = 0.08;
+  const auto cost = [&](const Eigen::Vector2d& shift) {
+    double sum = 1e-3 * shift.norm();  // of equals, the nearest
+    for (size_t i = 0; i < groups.size(); ++i) {
+      const double r = (displacement[i] + groups[i].normal.dot(shift)) / kTruncation_m;
+      sum += groups[i].weight * std::min(r * r, 1.0);
+    }
+    return sum;
+  };
+  Eigen::Vector2d best = Eigen::Vector2d::Zero();
+  double best_cost = cost(best);
+  for (size_t i = 0; i < n; ++i) {
+    for (size_t j = i + 1; j < n; ++j) {
+      Eigen::Matrix2d N;
+      N << groups[i].normal.transpose(), groups[j].normal.transpose();
+      if (std::abs(N.determinant()) < 0.5) continue;
+      const Eigen::Vector2d shift = N.inverse() * Eigen::Vector2d(-displacement[i], -displacement[j]);
+      if (shift.norm() > 1.5 * kMaxOffset_m) continue;
+      const double c = cost(shift);
+      if (c < best_cost) {
+        best_cost = c;
+        best = shift;
+      }
+    }
+  }
+  return pose.t_m + best;
+}
+
+// Least squares with the Geman-McClure kernel, its width shrunk step by step to the wall tolerance.
+PlanarPose SolveGraduated(const WallProblem& problem, PlanarPose pose) {
+  for (double width_m : {0.24, 0.12, kTolerance_m, kTolerance_m}) {
+    for (int i = 0; i < 3; ++i) {
+      // A weak prior holds directions that no wall fixes.
+      Eigen::Matrix4d H = Eigen::Vector4d(1e-4, 1e-4, 1e-4, 0).asDiagonal();
+      Eigen::Vector4d g = Eigen::Vector4d::Zero();
+      for (const WallGroup& group : problem.groups()) {
+        const double kernel = 1 / (1 + problem.SquaredDistance(group, pose) / (width_m * width_m));
+        problem.AddNormalEquations(group, pose, group.weight * kernel * kernel, H, g);
+      }
+      const Eigen::Vector3d step = -H.topLeftCorner<3, 3>().ldlt().solve(g.head<3>());
+      pose.t_m += step.head<2>();
+      pose.yaw_rad = WrapAngle(pose.yaw_rad + step.z());
+      if (step.norm() < 1e-7) break;
+    }
+  }
+  return pose;
+}
+
+// Marks groups in whose direction clearly more walls stand as planned than stand together somewhere else. Only these may fix the pose:
+// elsewhere "the walls are as planned" and "they all moved" explain the map equally well.
+std::vector<bool> InMajorityDirection(const WallProblem& problem, const PlanarPose& pose) {
+  const std::vector<WallGroup>& groups = problem.groups();
+  std::vector<bool> clear(groups.size(), false), done(groups.size(), false);
+  for (size_t i = 0; i < groups.size(); ++i) {
+    if (done[i]) continue;
+    std::vector<std::pair<double, double>> walls;  // displacement along the direction, weight
+    std::vector<size_t> members;
+    for (size_t j = i; j < groups.size(); ++j) {
+      const double cosine = groups[j].normal.dot(groups[i].normal);
+      if (done[j] || std::abs(cosine) < std::cos(kDirectionWidth_rad)) continue;
+      done[j] = true;
+      members.push_back(j);
+      walls.emplace_back(std::copysign(1.0, cosine) * problem.Displacement(groups[j], pose), groups[j].weight);
+    }
+    const auto support = [&](double at_m) {
+      double sum = 0;
+      for (const auto& [x_m, w] : walls) sum += std::abs(x_m - at_m) < kTolerance_m ? w : 0;
+      return sum;
+    };
+    const double here = support(0);
+    double elsewhere = 0;
+    for (const auto& [x_m, w] : walls) {
+      if (std::abs(x_m) >= kTolerance_m) elsewhere = std::max(elsewhere, support(x_m));
+    }
+    if (here < kMinMajority || here - elsewhere < kMinMajorityMargin) continue;
+    for (size_t j : members) clear[j] = true;
+  }
+  return clear;
+}
+
+// A map wall, placed in the plan.
+class WallInPlan {
+ public:
+  WallInPlan(const MapWall& wall, const PlanarPose& pose) : wall_(wall) {
+    const Eigen::Matrix2d R = pose.rotation();
+    normal_ = R * wall.normal;
+    start_ = R * wall.start + pose.t_m;
+    end_ = R * wall.end + pose.t_m;
+    z_min_m_ = wall.z_min_m + pose.z_m;
+    z_max_m_ = wall.z_max_m + pose.z_m;
+  }
+
+  // The part of it that lies along a face, and how well: overlapped metres, less for what is off or turned. Zero: not that face.
+  [[nodiscard]] double Along(const PlanFace& face, WallPair& pair) const {
+    if (face.normal.dot(normal_) < kMinCosine || z_max_m_ < face.z_min_m || z_min_m_ > face.z_max_m) return 0;
+    const double rs = face.normal.dot(start_) + face.d_m, re = face.normal.dot(end_) + face.d_m;
+    if (std::min(rs, re) > kMaxOffset_m || std::max(rs, re) < -kMaxOffset_m) return 0;
+    const double us = face.along.dot(start_ - face.start), ue = face.along.dot(end_ - face.start);
+    const double lo = std::max(us, 0.0), hi = std::min(ue, face.length_m);
+    if (hi - lo < std::max(kMinOverlap_m, kMinOverlapRatio * std::min(wall_.length_m, face.length_m))) return 0;
+    const double a = (lo - us) / (ue - us), b = (hi - us) / (ue - us);  // along the map wall
+    const double offset_m = rs + 0.5 * (a + b) * (re - rs);
+    if (std::abs(offset_m) > kMaxOffset_m) return 0;
+    pair.p = wall_.start + a * (wall_.end - wall_.start);
+    pair.q = wall_.start + b * (wall_.end - wall_.start);
+    pair.overlap_m = hi - lo;
+    const double offset = offset_m / kPairOffsetSigma_m, turn = Cross(normal_, face.normal) / kPairTurnSigma_rad;
+    return pair.overlap_m * std::exp(-0.5 * (offset * offset + turn * turn));
+  }
+
+  [[nodiscard]] const Eigen::Vector2d& start() const { return start_; }
+  [[nodiscard]] const Eigen::Vector2d& end() const { return end_; }
+
+  // Along the map wall, 0 at its start and 1 at its end.
+  [[nodiscard]] double Position(const Eigen::Vector2d& on_wall) const { return wall_.along.dot(on_wall - wall_.start) / wall_.length_m; }
+
+ private:
+  static inline const double kMinCosine = std::cos(kMaxTurn_rad);
+  const MapWall& wall_;
+  Eigen::Vector2d normal_, start_, end_;
+  double z_min_m_ = 0, z_max_m_ = 0;
+};
+
+bool Coplanar(const PlanFace& a, const PlanFace& b) {
+  return a.normal.dot(b.normal) > 0.9998 && std::abs(a.normal.dot(0.5 * (b.start + b.end)) + a.d_m) < kCoplanar_m;
+}
+
+// A wall that runs past several rooms has a face in each; its map wall may be one piece. Adds the faces in the plane of the last pair's
+// that take a part of the map wall not taken yet.
+void AppendCoplanar(const PlanIndex& plan, const WallInPlan& wall, const std::vector<uint32_t>& near, std::vector<WallPair>& pairs) {
+  const size_t first = pairs.size() - 1, best = pairs[first].face;
+  for (uint32_t k : near) {
+    if (k == best || !Coplanar(plan.faces()[best], plan.faces()[k])) continue;
+    WallPair pair;
+    if (wall.Along(plan.faces()[k], pair) <= 0) continue;
+    const double p = wall.Position(pair.p), q = wall.Position(pair.q);
+    const bool taken = std::any_of(pairs.begin() + static_cast<std::ptrdiff_t>(first), pairs.end(), [&](const WallPair& other) {
+      return std::min(q, wall.Position(other.q)) - std::max(p, wall.Position(other.p)) > 0.1 * (q - p);
+    });
+    if (taken) continue;
+    pair.wall = pairs[first].wall;
+    pair.face = k;
+    pairs.push_back(pair);
+  }
+}
+
+// Planes of the plan that the map agrees with over at least kMinFaceOverlap_m; coplanar faces count once.
+int CountPlanes(const PlanIndex& plan, const std::vector<double>& overlap_m) {
+  std::vector<std::pair<size_t, double>> planes;  // first face, overlap
+  for (size_t k = 0; k < overlap_m.size(); ++k) {
+    if (overlap_m[k] <= 0) continue;
+    const auto known = std::find_if(planes.begin(), planes.end(), [&](const auto& p) { return Coplanar(plan.faces()[p.first], plan.faces()[k]); });
+    if (known == planes.end()) planes.emplace_back(k, overlap_m[k]);
+    else known->second += overlap_m[k];
+  }
+  return static_cast<int>(std::count_if(planes.begin(), planes.end(), [](const auto& p) { return p.second >= kMinFaceOverlap_m; }));
+}
+
+void Assess(const PlanIndex& plan, const MapView& map, const WallProblem& problem, WallFit& fit) {
+  const std::vector<WallGroup>& groups = problem.groups();
+  const std::vector<bool> clear = InMajorityDirection(problem, fit.pose);
+  Eigen::Matrix4d H = Eigen::Matrix4d::Zero(), H_clear = Eigen::Matrix4d::Zero();
+  Eigen::Vector4d g = Eigen::Vector4d::Zero(), unused = Eigen::Vector4d::Zero();
+  std::vector<double> overlap_m(plan.faces().size(), 0.0);
+  double consistent_m = 0;
+  for (size_t i = 0; i < groups.size(); ++i) {
+    if (problem.SquaredDistance(groups[i], fit.pose) > kTolerance_m * kTolerance_m) continue;
+    const double weight = groups[i].weight / (kWallSigma_m * kWallSigma_m);
+    problem.AddNormalEquations(groups[i], fit.pose, weight, H, g);
+    if (clear[i]) problem.AddNormalEquations(groups[i], fit.pose, weight, H_clear, unused);
+    for (size_t k : groups[i].pairs) {
+      overlap_m[problem.pair(k).face] += problem.pair(k).overlap_m;
+      consistent_m += problem.pair(k).overlap_m;
+    }
+  }
+  fit.consistent_planes = CountPlanes(plan, overlap_m);
+  fit.consistent_ratio = map.wall_length_m > 0 ? std::min(1.0, consistent_m / map.wall_length_m) : 0;
+  fit.information = H_clear.topLeftCorner<3, 3>();
+  // With a weak prior, so that what no wall measures comes out as unknown instead of as a division by zero.
+  const Eigen::Matrix4d covariance = (H + Eigen::Matrix4d(Eigen::Vector4d(1e-4, 1e-4, 1e-4, 1e-4).asDiagonal())).inverse();
+  fit.sigma_scale = std::sqrt(covariance(3, 3));
+  fit.scale_error = covariance.row(3).dot(g);  // the map must shrink by -s to fit
+}
+
+}  // namespace
+
+double FaceDistance(const PlanFace& face, const PlanarPose& pose, const Eigen::Vector2d& p, Eigen::Vector4d* jacobian) {
+  const Eigen::Vector2d turned = pose.rotation() * p;
+  if (jacobian != nullptr) {
+    const Eigen::Vector2d by_yaw(-turned.y(), turned.x());
+    *jacobian << face.normal, face.normal.dot(by_yaw), face.normal.dot(turned);
+  }
+  return face.normal.dot(turned + pose.t_m) + face.d_m;
+}
+
+std::vector<WallPair> PairWalls(const PlanIndex& plan, const MapView& map, const PlanarPose& pose) {
+  std::vector<WallPair> pairs;
+  std::vector<uint32_t> near;
+  for (size_t i = 0; i < map.walls.size(); ++i) {
+    const WallInPlan wall(map.walls[i], pose);
+    plan.FacesNear(wall.start(), wall.end(), kMaxOffset_m, near);
+    WallPair best;
+    double best_score = 0;
+    for (uint32_t k : near) {
+      WallPair pair;
+      const double score = wall.Along(plan.faces()[k], pair);
+      if (score <= best_score) continue;
+      best_score = score;
+      best = pair;
+      best.face = k;
+    }
+    if (best_score <= 0) continue;
+    best.wall = i;
+    pairs.push_back(best);
+    AppendCoplanar(plan, wall, near, pairs);
+  }
+  return pairs;
+}
+
+WallFit RefineOnWalls(const PlanIndex& plan, const MapView& map, const PlanarPose& start) {
+  PlanarPose pose = start;
+  for (int round = 0; round < 3; ++round) {
+    const std::vector<WallPair> pairs = PairWalls(plan, map, pose);
+    if (pairs.empty()) break;
+    const WallProblem problem(plan, pairs, pose);
+    if (round < 2) {
+      pose.yaw_rad = MedianYaw(plan, map, pairs, pose.yaw_rad);
+      pose.t_m = ConsensusTranslation(problem, pose);
+    }
+    pose = SolveGraduated(problem, pose);
+  }
+  return AssessOnWalls(plan, map, pose);
+}
+
+WallFit AssessOnWalls(const PlanIndex& plan, const MapView& map, const PlanarPose& pose) {
+  WallFit fit;
+  fit.pose = pose;
+  fit.pairs = PairWalls(plan, map, pose);
+  Assess(plan, map, WallProblem(plan, fit.pairs, pose), fit);
+  return fit;
+}
+
+}  // namespace plumb::runtime

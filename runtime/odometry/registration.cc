@@ -1,0 +1,159 @@
+#include "runtime/odometry/registration.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace plumb::runtime {
+namespace {
+
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
+
+constexpr double kInlierSigmas = 3.0;
+constexpr double kConverged_m = 1e-4, kConverged_rad = 2e-5;
+constexpr double kNormalNoiseMargin = 2.0;
+constexpr int kMinInliers = 60;
+constexpr double kMinInlierRatio = 0.4, kMinOverlapRatio = 0.1;
+
+// The planes' normal equations, by powers of s: blocks (d,d), (d,e), (e,e) are sums of w s^k a a^T for k = 0, 1, 2.
+struct NormalEquations {
+  Matrix6d A[3] = {Matrix6d::Zero(), Matrix6d::Zero(), Matrix6d::Zero()};
+  Vector6d g[2] = {Vector6d::Zero(), Vector6d::Zero()};
+  double weight = 0, weighted_radius2_m2 = 0, weighted_normal_variance = 0;
+  int num_matched = 0, num_inliers = 0;
+  double inlier_square_sum_m2 = 0;
+};
+
+NormalEquations Accumulate(std::span<const SweepPoint> points, const SurfelMap& map, const SweepMotion& motion, double kernel_m,
+                           bool neighbours, double range_sigma_m) {
+  NormalEquations sum;
+  const SweepPoses poses(motion);
+  const Eigen::Vector3d center = motion.T_start.translation();
+  for (const SweepPoint& point : points) {
+    const Eigen::Vector3d q = poses.Apply(point.p, point.s);
+    const Surfel* surfel = map.Nearest(q, poses.Position(point.s), neighbours);
+    if (surfel == nullptr) continue;
+    ++sum.num_matched;
+    const PointToPlane e = EvaluatePointToPlane(q, surfel->normal, surfel->mean, center);
+    const double variance_m2 = surfel->DistanceVariance(q, range_sigma_m);
+    const double square_m2 = e.residual_m * e.residual_m;
+    if (square_m2 < kInlierSigmas * kInlierSigmas * variance_m2) {
+      ++sum.num_inliers;
+      sum.inlier_square_sum_m2 += square_m2;
+    }
+    const double scale2_m2 = kernel_m * kernel_m * variance_m2 / (range_sigma_m * range_sigma_m);
+    const double root = scale2_m2 / (scale2_m2 + square_m2);
+    const double w = root * root / variance_m2;
+    const Vector6d wa = w * e.jacobian;
+    Matrix6d outer;
+    outer.noalias() = wa * e.jacobian.transpose();
+    sum.A[0] += outer;
+    sum.A[1] += point.s * outer;
+    sum.A[2] += point.s * point.s * outer;
+    sum.g[0] += wa * e.residual_m;
+    sum.g[1] += wa * (point.s * e.residual_m);
+    sum.weight += w;
+    sum.weighted_normal_variance += w * surfel->NormalVariance(range_sigma_m);
+    sum.weighted_radius2_m2 += w * (q - center).squaredNorm();
+  }
+  return sum;
+}
+
+// Projector onto the directions of motion that the planes hold. Rotations count by the distance that points move at the mean radius.
+Matrix6d HeldDirections(const NormalEquations& sum, double degenerate_ratio) {
+  if (sum.weight <= 0) return Matrix6d::Zero();
+  const double radius_m = std::max(0.1, std::sqrt(sum.weighted_radius2_m2 / sum.weight));
+  Vector6d scale;
+  scale << Eigen::Vector3d::Constant(1 / radius_m), Eigen::Vector3d::Ones();
+  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(scale.asDiagonal() * sum.A[0] * scale.asDiagonal());
+  const double least = std::max(degenerate_ratio * sum.weight, kNormalNoiseMargin * sum.weighted_normal_variance);
+  Matrix6d P = Matrix6d::Zero();
+  for (int i = 0; i < 6; ++i) {
+    const Vector6d v = eigen.eigenvectors().col(i);
+    if (eigen.eigenvalues()[i] >= least) P += v * v.transpose();
+  }
+  // Increments x are scale * y with y in the eigenvectors' coordinates.
+  return scale.asDiagonal() * P * scale.cwiseInverse().asDiagonal();
+}
+
+// What `actual` is off from `mean`: rotation and translation in the common frame.
+Vector6d Difference(const Eigen::Isometry3d& actual, const Eigen::Isometry3d& mean) {
+  Vector6d d;
+  d << LogSo3(actual.linear() * mean.linear().transpose()), actual.translation() - mean.translation();
+  return d;
+}
+
+struct LinearSystem {
+  Matrix12d H;
+  Vector12d g;
+};
+
+LinearSystem WithPrior(const NormalEquations& sum, const SweepMotion& motion, const SweepPrior& prior, const Matrix12d& prior_information,
+                       const RegistrationOptions& options) {
+  const Matrix6d P = HeldDirections(sum, options.degenerate_ratio);
+  const double share = 1 / options.points_per_independent;
+  LinearSystem system;
+  const Matrix6d mixed = share * P.transpose() * sum.A[1] * P;
+  system.H << share * P.transpose() * sum.A[0] * P, mixed, mixed, share * P.transpose() * sum.A[2] * P;
+  system.g << share * P.transpose() * sum.g[0], share * P.transpose() * sum.g[1];
+  const Vector6d start = Difference(motion.T_start, prior.mean.T_start);
+  Vector12d off;
+  off << start, Difference(motion.T_end, prior.mean.T_end) - start;
+  system.H += prior_information;
+  system.g += prior_information * off;
+  return system;
+}
+
+}  // namespace
+
+PointToPlane EvaluatePointToPlane(const Eigen::Vector3d& q, const Eigen::Vector3d& normal, const Eigen::Vector3d& mean,
+                                  const Eigen::Vector3d& center) {
+  PointToPlane e;
+  e.residual_m = normal.dot(q - mean);
+  e.jacobian << (q - center).cross(normal), normal;
+  return e;
+}
+
+Eigen::Isometry3d Moved(const Eigen::Isometry3d& T, const Vector6d& increment, const Eigen::Vector3d& center) {
+  const Eigen::Matrix3d R = ExpSo3(increment.head<3>());
+  Eigen::Isometry3d moved = Eigen::Isometry3d::Identity();
+  moved.linear() = R * T.linear();
+  moved.translation() = R * (T.translation() - center) + center + increment.tail<3>();
+  return Orthonormalized(moved);
+}
+
+RegistrationResult RegisterSweep(std::span<const SweepPoint> points, bool timed, const SurfelMap& map, const SweepPrior& prior,
+                                 const RegistrationOptions& options) {
+  RegistrationResult result;
+  result.motion = prior.mean;
+  const Matrix12d prior_information = prior.covariance.llt().solve(Matrix12d::Identity());
+  const double final_kernel_m = kInlierSigmas * options.range_sigma_m;
+  double kernel_m = std::max(options.initial_kernel_m, final_kernel_m);
+  for (; result.iterations < options.max_iterations; ++result.iterations) {
+    const bool coarse = kernel_m > 4 * final_kernel_m;
+    const NormalEquations sum =
+        Accumulate(points, map, result.motion, kernel_m, options.search_neighbours && coarse, options.range_sigma_m);
+    const LinearSystem system = WithPrior(sum, result.motion, prior, prior_information, options);
+    const Vector12d step = system.H.ldlt().solve(-system.g);
+    if (!step.allFinite()) return result;
+    const Eigen::Vector3d center = result.motion.T_start.translation();
+    result.motion.T_start = Moved(result.motion.T_start, step.head<6>(), center);
+    result.motion.T_end = Moved(result.motion.T_end, step.head<6>() + step.tail<6>(), center);
+    if (!timed) result.motion.T_end = result.motion.T_start;
+    const bool small = step.head<3>().norm() + step.segment<3>(6).norm() < kConverged_rad &&
+                       step.segment<3>(3).norm() + step.tail<3>().norm() < kConverged_m;
+    if (small && kernel_m <= final_kernel_m) break;
+    kernel_m = std::max(final_kernel_m, 0.5 * kernel_m);
+  }
+  const NormalEquations last = Accumulate(points, map, result.motion, final_kernel_m, false, options.range_sigma_m);
+  result.covariance = WithPrior(last, result.motion, prior, prior_information, options).H.ldlt().solve(Matrix12d::Identity());
+  result.num_inliers = last.num_inliers;
+  result.inlier_ratio = last.num_matched > 0 ? static_cast<double>(last.num_inliers) / last.num_matched : 0;
+  result.overlap_ratio = points.empty() ? 0 : static_cast<double>(last.num_matched) / static_cast<double>(points.size());
+  result.rms_m = last.num_inliers > 0 ? std::sqrt(last.inlier_square_sum_m2 / last.num_inliers) : 0;
+  result.ok = result.num_inliers >= kMinInliers && result.inlier_ratio >= kMinInlierRatio && result.overlap_ratio >= kMinOverlapRatio;
+  return result;
+}
+
+}  // namespace plumb::runtime

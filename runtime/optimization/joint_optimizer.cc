@@ -1,0 +1,264 @@
+#include "runtime/optimization/joint_optimizer.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <numbers>
+
+#include "runtime/coupling/mixture.h"
+#include "runtime/optimization/joint_problem.h"
+#include "runtime/optimization/place_seed.h"
+#include "runtime/optimization/wall_measurement.h"
+
+namespace plumb::runtime {
+namespace {
+
+constexpr double kSettled = 0.01;  // responsibilities that change less end the EM rounds
+
+std::string CheckInput(const SGraph& map, const AGraph& plan, const std::vector<WallFrame>& frames, const std::vector<Match>& matches,
+                       const JointOptions& options) {
+  if (std::string error = options.Check(); !error.empty()) return error;
+  if (map.keyframes.empty()) return "the map has no keyframes";
+  for (const Match& m : matches) {
+    if (m.map_surface >= map.surfaces.size()) return fmt::format("match of map surface {}; the map has {}", m.map_surface, map.surfaces.size());
+    if (!m.plan_surface.valid()) {
+      if (!m.room.valid() || m.room.index() >= plan.rooms.size()) return fmt::format("match of map surface {} has neither plan surface nor room", m.map_surface);
+      continue;
+    }
+    if (m.plan_surface.index() >= plan.surfaces.size()) return fmt::format("match with plan surface {}; the plan has {}", m.plan_surface.value, plan.surfaces.size());
+    const Surface& surface = plan.surfaces[m.plan_surface.index()];
+    if (!surface.wall.valid() || !IsFace(frames[surface.wall.index()], surface)) {
+      return fmt::format("match with plan surface {}, which is no face of a wall", m.plan_surface.value);
+    }
+  }
+  return {};
+}
+
+class Optimizer {
+ public:
+  Optimizer(const SGraph& map, const AGraph& plan, const std::vector<WallFrame>& frames, const std::vector<Match>& matches,
+            const Eigen::Isometry3d& T_plan_map, const JointOptions& options)
+      : map_(map), plan_(plan), frames_(frames), options_(options) {
+    std::copy_if(matches.begin(), matches.end(), std::back_inserter(matches_),
+                 [&](const Match& m) { return !map.surfaces[m.map_surface].observations.empty(); });
+    for (const Keyframe& k : map.keyframes) state_.poses.push_back(PoseBlock(k.T_map_kf));
+    state_.place = PlaceBlock(T_plan_map);
+    for (const Match& m : matches_) {
+      if (m.plan_surface.valid()) state_.wall_ids.push_back(plan.surfaces[m.plan_surface.index()].wall);
+    }
+    std::sort(state_.wall_ids.begin(), state_.wall_ids.end());
+    state_.wall_ids.erase(std::unique(state_.wall_ids.begin(), state_.wall_ids.end()), state_.wall_ids.end());
+    state_.walls.assign(state_.wall_ids.size(), {});
+    responsibilities_.assign(state_.wall_ids.size(), {});
+  }
+
+  JointResult Run() {
+    JointResult result;
+    SeedHeight();
+    Measure();
+    Reseed(true);
+    Reseed(true);  // the first correction may turn the plan, and measurements are linear in the turn
+    JointProblem problem(map_, plan_, frames_, matches_, options_, state_);
+    for (int round = 0; round < options_.em_rounds; ++round) {
+      if (round > 0) Reseed(false);
+      const double change = ExpectationStep(problem);
+      if (round > 1 && change < kSettled) break;
+      const JointProblem::Outcome outcome = problem.Solve();
+      result.iterations += outcome.iterations;
+      result.em_rounds = round + 1;
+      result.converged = outcome.converged;
+      result.cost = outcome.cost;
+      result.message = outcome.message;
+      if (!outcome.usable) return result;
+      Measure();
+    }
+    Report(options_.covariances ? problem.Covariances() : std::nullopt, result);
+    return result;
+  }
+
+ private:
+  // Height of the plan's place from the matched floors: the median asks for no prior knowledge of which floor is right.
+  void SeedHeight() {
+    std::vector<double> errors;
+    for (const Match& m : matches_) {
+      if (!m.room.valid() || m.plan_surface.valid() || map_.surfaces[m.map_surface].kind != SurfaceKind::kFloor) continue;
+      for (const Observation& o : map_.surfaces[m.map_surface].observations) {
+        const Eigen::Vector3d p = Place() * (PoseOf(state_.poses[o.keyframe]) * o.stats.centroid());
+        errors.push_back(p.z() - plan_.rooms[m.room.index()].floor_z_m);
+      }
+    }
+    if (errors.empty()) return;
+    const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
+    std::nth_element(errors.begin(), middle, errors.end());
+    state_.place[2] -= *middle;
+  }
+
+  void Measure() {
+    std::vector<Eigen::Isometry3d> poses;
+    for (const auto& pose : state_.poses) poses.push_back(PoseOf(pose));
+    measurements_ = MeasureWalls(map_, plan_, frames_, matches_, poses, Place(), options_);
+  }
+
+  // Wall-level consensus on where the plan lies. Between rounds it only steps in when another place is clearly better.
+  void Reseed(bool always) {
+    const PlaceSeed seed = SeedPlace(measurements_, frames_, Place(), options_);
+    const Eigen::Isometry3d moved = seed.T_plan_map * Place().inverse();
+    const Eigen::Vector3d center = Place() * Eigen::Vector3d(state_.poses.back()[4], state_.poses.back()[5], state_.poses.back()[6]);
+    constexpr double kElsewhere_m = 0.03;
+    if (!always && (moved * center - center).norm() < kElsewhere_m) return;
+    state_.place = PlaceBlock(seed.T_plan_map);
+    state_.bias_m = seed.bias_m;
+    Measure();
+    for (size_t w = 0; w < measurements_.size(); ++w) {
+      const Eigen::Vector2d e = measurements_[w].At(state_.bias_m);
+      state_.walls[w] = {e.x(), e.y(), 0, 0};
+    }
+  }
+
+  // Which component each wall belongs to; sets the priors accordingly. Returns the largest change.
+  double ExpectationStep(JointProblem& problem) {
+    double change = 0;
+    for (size_t w = 0; w < measurements_.size(); ++w) {
+      const Responsibilities r = AssessMixture(measurements_[w].At(state_.bias_m), measurements_[w].covariance, options_.coupling);
+      change = std::max({change, std::abs(r.offset - responsibilities_[w].offset), std::abs(r.yaw - responsibilities_[w].yaw)});
+      responsibilities_[w] = r;
+      problem.SetWallPrior(w, PriorInformation(r, options_.coupling));
+    }
+    return change;
+  }
+
+  void Report(const std::optional<JointCovariances>& covariances, JointResult& result) const {
+    result.T_plan_map = Place();
+    for (const auto& pose : state_.poses) result.T_map_kf.push_back(PoseOf(pose));
+    result.range_bias_m = state_.bias_m;
+    result.covariances_exact = covariances.has_value();
+    if (covariances) {
+      constexpr int kPick[3] = {0, 1, 3};
+      for (int i = 0; i < 3; ++i) for (int j = 0; j < 3; ++j) result.cov_xy_yaw(i, j) = covariances->place(kPick[i], kPick[j]);
+    } else {
+      result.cov_xy_yaw = Eigen::Vector3d(1, 1, 0.04).asDiagonal();
+      if (options_.covariances) result.message += " Rank deficient: covariances are the priors' own, the widest they can be.";
+    }
+    for (size_t w = 0; w < state_.walls.size(); ++w) result.walls.push_back(Estimate(w, covariances));
+    CountSeen(result.walls);
+    result.directions = SupportByDirection(measurements_, frames_, state_.bias_m, options_.coupling);
+    result.gauge = GaugeText(result);
+  }
+
+  WallEstimate Estimate(size_t w, const std::optional<JointCovariances>& covariances) const {
+    WallEstimate e;
+    e.wall = state_.wall_ids[w];
+    e.reference = frames_[e.wall.index()].reference;
+    e.deviation = {state_.walls[w][kWallOffset], state_.walls[w][kWallYaw]};
+    e.tilt_rad = state_.walls[w][kWallTilt];
+    e.thickness_error_m = state_.walls[w][kWallThickness];
+    e.p_deviated = responsibilities_[w].any;
+    if (!covariances) {
+      const CouplingOptions& c = options_.coupling;
+      e.cov_all = Eigen::Vector4d(c.offset_tau1_m, c.yaw_tau1_rad, options_.tilt_sigma_rad, options_.thickness_sigma_m).cwiseAbs2().asDiagonal();
+      e.cov = e.cov_all.topLeftCorner<2, 2>();
+      return e;
+    }
+    e.cov_all = covariances->walls[w];
+    e.cov = e.cov_all.topLeftCorner<2, 2>();
+    // Take the prior out again: what all the data say about this wall, with poses and place marginalised, decides its responsibility.
+    const Eigen::Matrix2d posterior = e.cov.inverse();
+    Eigen::Matrix2d data = posterior;
+    data.diagonal() -= PriorInformation(responsibilities_[w], options_.coupling);
+    const Eigen::Vector2d least(1e-2 / (options_.coupling.offset_tau1_m * options_.coupling.offset_tau1_m),
+                                1e-2 / (options_.coupling.yaw_tau1_rad * options_.coupling.yaw_tau1_rad));
+    data.diagonal() += least;  // a wall that was hardly seen has next to no information of its own, never less
+    if (data.determinant() > 0 && data(0, 0) > 0) {
+      const Eigen::Vector2d measured = data.inverse() * (posterior * Eigen::Vector2d(e.deviation.offset_m, e.deviation.yaw_rad));
+      e.p_deviated = AssessMixture(measured, data.inverse(), options_.coupling).any;
+    }
+    return e;
+  }
+
+  void CountSeen(std::vector<WallEstimate>& walls) const {
+    std::map<SurfaceId, SeenSurface> seen;
+    for (const Match& m : matches_) {
+      if (!m.plan_surface.valid()) continue;
+      SeenSurface& s = seen[m.plan_surface];
+      s.surface = m.plan_surface;
+      s.num_points += map_.surfaces[m.map_surface].num_points;
+      s.observed_m2 += map_.surfaces[m.map_surface].area_m2;
+    }
+    for (const auto& [id, s] : seen) {
+      const WallId wall = plan_.surfaces[id.index()].wall;
+      WallEstimate& e = *std::lower_bound(walls.begin(), walls.end(), wall, [](const WallEstimate& a, WallId b) { return a.wall < b; });
+      e.seen.push_back(s);
+      e.num_points += s.num_points;
+      e.observed_m2 += s.observed_m2;
+    }
+  }
+
+  std::string GaugeText(const JointResult& result) const {
+    const auto deviated = std::count_if(result.walls.begin(), result.walls.end(), [](const WallEstimate& w) { return w.p_deviated > 0.5; });
+    std::string text = fmt::format(
+        "The plan is laid where the deviation prior is most probable, which is where most walls stand as planned: {} of {} seen walls deviate.",
+        deviated, result.walls.size());
+    for (const DirectionSupport& d : result.directions) {
+      if (!d.ambiguous()) continue;
+      text += fmt::format(" Along {:.0f} deg the frame is ambiguous: {} wall(s) agree with it, {} with another.",
+                          d.axis_rad * 180 / std::numbers::pi, d.consistent, d.next_cluster);
+    }
+    return text;
+  }
+
+  [[nodiscard]] Eigen::Isometry3d Place() const { return PlaceOf(state_.place); }
+
+  const SGraph& map_;
+  const AGraph& plan_;
+  const std::vector<WallFrame>& frames_;
+  std::vector<Match> matches_;
+  const JointOptions& options_;
+  JointState state_;
+  std::vector<WallMeasurement> measurements_;
+  std::vector<Responsibilities> responsibilities_;
+};
+
+}  // namespace
+
+std::string JointOptions::Check() const {
+  const std::pair<const char*, double> positive[] = {{"point_sigma_m", point_sigma_m}, {"observation_floor_m", observation_floor_m},
+      {"observation_floor_rad", observation_floor_rad}, {"observation_loss", observation_loss}, {"odometry_sigma_m", odometry_sigma_m},
+      {"odometry_sigma_rad", odometry_sigma_rad}, {"gravity_sigma_rad", gravity_sigma_rad}, {"bias_sigma_m", bias_sigma_m},
+      {"thickness_sigma_m", thickness_sigma_m}, {"tilt_sigma_rad", tilt_sigma_rad}, {"level_sigma_m", level_sigma_m}};
+  for (const auto& [name, value] : positive) {
+    if (!(value > 0)) return fmt::format("JointOptions.{} = {}; must be > 0", name, value);
+  }
+  const std::pair<const char*, double> growth[] = {{"odometry_sigma_m_per_m", odometry_sigma_m_per_m},
+      {"odometry_sigma_rad_per_m", odometry_sigma_rad_per_m}, {"odometry_sigma_rad_per_rad", odometry_sigma_rad_per_rad},
+      {"odometry_sigma_m_per_s", odometry_sigma_m_per_s}};
+  for (const auto& [name, value] : growth) {
+    if (!(value >= 0)) return fmt::format("JointOptions.{} = {}; must be >= 0", name, value);
+  }
+  if (!(correlation >= 1)) return fmt::format("JointOptions.correlation = {}; must be >= 1", correlation);
+  if (em_rounds < 1) return fmt::format("JointOptions.em_rounds = {}; must be >= 1", em_rounds);
+  if (max_iterations < 1) return fmt::format("JointOptions.max_iterations = {}; must be >= 1", max_iterations);
+  return coupling.Check();
+}
+
+std::vector<WallDeviation> JointResult::Deviations(size_t num_walls) const {
+  std::vector<WallDeviation> out(num_walls);
+  for (const WallEstimate& w : walls) out[w.wall.index()] = w.deviation;
+  return out;
+}
+
+JointResult OptimizeJointly(const SGraph& map, const AGraph& plan, const std::vector<Match>& matches, const Eigen::Isometry3d& T_plan_map,
+                            const JointOptions& options) {
+  const std::vector<WallFrame> frames = WallFrames(plan);
+  JointResult failure;
+  failure.T_plan_map = T_plan_map;
+  failure.message = CheckInput(map, plan, frames, matches, options);
+  if (!failure.message.empty()) return failure;
+  return Optimizer(map, plan, frames, matches, T_plan_map, options).Run();
+}
+
+}  // namespace plumb::runtime

@@ -1,0 +1,211 @@
+#include "runtime/optimization/joint_problem.h"
+
+#include <ceres/ceres.h>
+
+#include <algorithm>
+
+#include "runtime/optimization/wall_measurement.h"
+
+namespace plumb::runtime {
+namespace {
+
+using PoseManifold = ceres::ProductManifold<ceres::EigenQuaternionManifold, ceres::EuclideanManifold<3>>;
+using PlaneManifold = ceres::ProductManifold<ceres::SphereManifold<3>, ceres::EuclideanManifold<1>>;
+
+constexpr double kAnchorSigma_m = 1e-4, kAnchorSigma_rad = 1e-4;
+// Far weaker than any observation: they only keep the problem regular where nothing was observed (a corridor, no floor, a line of points).
+constexpr std::array<double, kPlaceSize> kPlaceWeight{0.1, 0.1, 0.1, 1.0};
+constexpr std::array<double, kPlaneSize> kPlaneWeight{1.0, 1.0, 1.0, 0.1};
+constexpr double kOdometryLoss = 3.0, kLevelLoss = 2.0;  // in sigmas
+
+template <class Functor, int kResiduals, int... kBlocks>
+auto* Cost(const Functor& functor) {
+  return new ceres::AutoDiffCostFunction<Functor, kResiduals, kBlocks...>(new Functor(functor));
+}
+
+ceres::Problem::Options SharedLossesAndManifolds() {
+  ceres::Problem::Options options;
+  options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
+  return options;
+}
+
+}  // namespace
+
+struct JointProblem::Impl {
+  Impl(const SGraph& map_in, const AGraph& plan_in, const std::vector<WallFrame>& frames_in, const JointOptions& options_in, JointState& state_in)
+      : map(map_in), plan(plan_in), frames(frames_in), options(options_in), state(state_in), observation_loss(options.observation_loss),
+        odometry_loss(kOdometryLoss), level_loss(kLevelLoss), level_weight{1 / options.level_sigma_m}, bias_weight{1 / options.bias_sigma_m},
+        problem(SharedLossesAndManifolds()) {}
+
+  void AddKeyframes() {
+    for (auto& pose : state.poses) problem.AddParameterBlock(pose.data(), kPoseSize, &pose_manifold);
+    problem.AddResidualBlock(
+        Cost<AnchorResidual, 6, kPoseSize>({PoseOf(state.poses[0]), kAnchorSigma_m, kAnchorSigma_rad, options.gravity_sigma_rad}), nullptr,
+        state.poses[0].data());
+    for (size_t i = 1; i < map.keyframes.size(); ++i) {
+      const Keyframe &a = map.keyframes[i - 1], &b = map.keyframes[i];
+      const Eigen::Isometry3d step = a.T_odom_kf.inverse() * b.T_odom_kf;
+      const double length = step.translation().norm(), turn = Eigen::AngleAxisd(step.linear()).angle();
+      const double sigma_m = options.odometry_sigma_m + options.odometry_sigma_m_per_m * length +
+                             options.odometry_sigma_m_per_s * std::abs(b.stamp_s - a.stamp_s);
+      const double sigma_rad =
+          options.odometry_sigma_rad + options.odometry_sigma_rad_per_m * length + options.odometry_sigma_rad_per_rad * std::abs(turn);
+      problem.AddResidualBlock(Cost<OdometryResidual, 6, kPoseSize, kPoseSize>({step, sigma_m, sigma_rad}), &odometry_loss,
+                               state.poses[i - 1].data(), state.poses[i].data());
+    }
+  }
+
+  void AddPlaceAndBias() {
+    problem.AddResidualBlock(Cost<PriorResidual<kPlaceSize>, kPlaceSize, kPlaceSize>({state.place, &kPlaceWeight}), nullptr, state.place.data());
+    problem.AddResidualBlock(Cost<PriorResidual<1>, 1, 1>({{0.0}, &bias_weight}), nullptr, &state.bias_m);
+  }
+
+  void AddWalls(const std::vector<Match>& matches) {
+    wall_weights.assign(state.walls.size(), {0, 0, 1 / options.tilt_sigma_rad, 1 / options.thickness_sigma_m});
+    for (size_t w = 0; w < state.walls.size(); ++w) {
+      problem.AddResidualBlock(Cost<PriorResidual<kNumWallParameters>, kNumWallParameters, kNumWallParameters>({{}, &wall_weights[w]}), nullptr,
+                               state.walls[w].data());
+    }
+    for (const Match& m : matches) {
+      if (!m.plan_surface.valid()) continue;
+      const Surface& surface = plan.surfaces[m.plan_surface.index()];
+      const auto at = std::lower_bound(state.wall_ids.begin(), state.wall_ids.end(), surface.wall);
+      double* wall = state.walls[static_cast<size_t>(at - state.wall_ids.begin())].data();
+      const Face face = MakeFace(frames[surface.wall.index()], surface);
+      for (const Observation& o : map.surfaces[m.map_surface].observations) {
+        problem.AddResidualBlock(
+            Cost<WallViewResidual, 3, kPoseSize, kPlaceSize, kNumWallParameters, 1>({PlaneView(o.stats, NoiseOf(options)), face}),
+            &observation_loss, state.poses[o.keyframe].data(), state.place.data(), wall, &state.bias_m);
+      }
+    }
+  }
+
+  void AddLevels(const std::vector<Match>& matches) {
+    state.levels.clear();
+    state.levels.reserve(matches.size());
+    for (const Match& m : matches) {
+      if (m.plan_surface.valid()) continue;
+      const MapSurface& surface = map.surfaces[m.map_surface];
+      const Room& room = plan.rooms[m.room.index()];
+      const bool floor = surface.kind == SurfaceKind::kFloor;
+      double* level = state.levels.emplace_back().data();
+      problem.AddResidualBlock(Cost<PriorResidual<1>, 1, 1>({{0.0}, &level_weight}), &level_loss, level);
+      for (const Observation& o : surface.observations) {
+        const LevelViewResidual residual{PlaneView(o.stats, NoiseOf(options)), floor ? room.floor_z_m : room.ceiling_z_m, floor ? 1.0 : -1.0};
+        problem.AddResidualBlock(Cost<LevelViewResidual, 3, kPoseSize, kPlaceSize, 1>(residual), &observation_loss,
+                                 state.poses[o.keyframe].data(), state.place.data(), level);
+      }
+    }
+  }
+
+  void AddFreePlanes(const std::vector<Match>& matches) {
+    std::vector<bool> matched(map.surfaces.size(), false);
+    for (const Match& m : matches) matched[m.map_surface] = true;
+    state.planes.clear();
+    state.planes.reserve(map.surfaces.size());
+    for (size_t i = 0; i < map.surfaces.size(); ++i) {
+      const MapSurface& surface = map.surfaces[i];
+      if (matched[i] || surface.observations.size() < 2) continue;
+      const Eigen::Vector3d n = surface.plane.n.normalized();
+      double* plane = state.planes.emplace_back(std::array<double, kPlaneSize>{n.x(), n.y(), n.z(), surface.plane.d}).data();
+      problem.AddParameterBlock(plane, kPlaneSize, &plane_manifold);
+      problem.AddResidualBlock(Cost<PriorResidual<kPlaneSize>, kPlaneSize, kPlaneSize>({state.planes.back(), &kPlaneWeight}), nullptr, plane);
+      for (const Observation& o : surface.observations) {
+        problem.AddResidualBlock(Cost<FreeViewResidual, 3, kPoseSize, kPlaneSize>({PlaneView(o.stats, NoiseOf(options))}), &observation_loss,
+                                 state.poses[o.keyframe].data(), plane);
+      }
+    }
+  }
+
+  const SGraph& map;
+  const AGraph& plan;
+  const std::vector<WallFrame>& frames;
+  const JointOptions& options;
+  JointState& state;
+  ceres::CauchyLoss observation_loss;
+  ceres::HuberLoss odometry_loss;
+  ceres::CauchyLoss level_loss;
+  PoseManifold pose_manifold;
+  PlaneManifold plane_manifold;
+  std::vector<std::array<double, kNumWallParameters>> wall_weights;
+  std::array<double, 1> level_weight, bias_weight;
+  ceres::Problem problem;  // last: it points at all of the above
+};
+
+Eigen::Isometry3d PoseOf(const std::array<double, kPoseSize>& pose) {
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.linear() = Eigen::Map<const Eigen::Quaterniond>(pose.data()).normalized().toRotationMatrix();
+  T.translation() = Eigen::Map<const Eigen::Vector3d>(pose.data() + 4);
+  return T;
+}
+
+std::array<double, kPoseSize> PoseBlock(const Eigen::Isometry3d& T) {
+  const Eigen::Quaterniond q = Eigen::Quaterniond(T.linear()).normalized();
+  const Eigen::Vector3d t = T.translation();
+  return {q.x(), q.y(), q.z(), q.w(), t.x(), t.y(), t.z()};
+}
+
+Eigen::Isometry3d PlaceOf(const std::array<double, kPlaceSize>& place) {
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.linear() = Eigen::AngleAxisd(place[3], Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  T.translation() = Eigen::Vector3d(place[0], place[1], place[2]);
+  return T;
+}
+
+std::array<double, kPlaceSize> PlaceBlock(const Eigen::Isometry3d& T_plan_map) {
+  const Eigen::Vector3d t = T_plan_map.translation();
+  return {t.x(), t.y(), t.z(), std::atan2(T_plan_map.linear()(1, 0), T_plan_map.linear()(0, 0))};
+}
+
+JointProblem::JointProblem(const SGraph& map, const AGraph& plan, const std::vector<WallFrame>& frames, const std::vector<Match>& matches,
+                           const JointOptions& options, JointState& state)
+    : impl_(std::make_unique<Impl>(map, plan, frames, options, state)) {
+  impl_->AddKeyframes();
+  impl_->AddPlaceAndBias();
+  impl_->AddWalls(matches);
+  impl_->AddLevels(matches);
+  impl_->AddFreePlanes(matches);
+}
+
+JointProblem::~JointProblem() = default;
+
+void JointProblem::SetWallPrior(size_t wall, const Eigen::Vector2d& information) {
+  impl_->wall_weights[wall][kWallOffset] = std::sqrt(information.x());
+  impl_->wall_weights[wall][kWallYaw] = std::sqrt(information.y());
+}
+
+JointProblem::Outcome JointProblem::Solve() {
+  ceres::Solver::Options options;
+  options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;
+  options.num_threads = 1;  // summation order, hence the result, must not depend on scheduling
+  options.max_num_iterations = impl_->options.max_iterations;
+  options.function_tolerance = 1e-7;
+  options.logging_type = ceres::SILENT;
+  ceres::Solver::Summary summary;
+  ceres::Solve(options, &impl_->problem, &summary);
+  return {summary.IsSolutionUsable(), summary.termination_type == ceres::CONVERGENCE,
+          summary.num_successful_steps + summary.num_unsuccessful_steps, summary.final_cost, summary.message};
+}
+
+std::optional<JointCovariances> JointProblem::Covariances() const {
+  ceres::Covariance::Options options;
+  options.num_threads = 1;
+  ceres::Covariance covariance(options);
+  const JointState& state = impl_->state;
+  std::vector<std::pair<const double*, const double*>> blocks{{state.place.data(), state.place.data()}};
+  for (const auto& wall : state.walls) blocks.emplace_back(wall.data(), wall.data());
+  if (!covariance.Compute(blocks, &impl_->problem)) return std::nullopt;
+
+  const auto get = [&](const double* block) {
+    Eigen::Matrix<double, 4, 4, Eigen::RowMajor> m;
+    covariance.GetCovarianceBlock(block, block, m.data());
+    return Eigen::Matrix4d(0.5 * (m + m.transpose()));
+  };
+  JointCovariances out;
+  out.place = get(state.place.data());
+  for (const auto& wall : state.walls) out.walls.push_back(get(wall.data()));
+  return out;
+}
+
+}  // namespace plumb::runtime

@@ -1,0 +1,42 @@
+#include "runtime/optimization/plane_view.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace plumb::runtime {
+
+PlaneMoments ComputeMoments(const PlaneStats& stats) {
+  PlaneMoments m;
+  m.count = stats.count();
+  if (m.count <= 0) return m;
+  m.center = stats.centroid();
+  const Eigen::Matrix3d scatter = stats.C.topLeftCorner<3, 3>() / m.count - m.center * m.center.transpose();
+  // Semidefinite up to rounding: the solver takes it as it is, negative zeros are cut.
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(scatter);
+  m.normal = eigen.eigenvectors().col(0);
+  m.v = eigen.eigenvectors().col(1);
+  m.u = eigen.eigenvectors().col(2);
+  m.var_normal = std::max(0.0, eigen.eigenvalues()[0]);
+  m.var_v = std::max(0.0, eigen.eigenvalues()[1]);
+  m.var_u = std::max(0.0, eigen.eigenvalues()[2]);
+  return m;
+}
+
+PlaneView::PlaneView(const PlaneStats& stats, const ViewNoise& noise) {
+  const PlaneMoments m = ComputeMoments(stats);
+  if (m.count <= 0) return;
+  center = m.center;
+  u = m.u;
+  v = m.v;
+  // A surface rougher than the sensor tells less.
+  const double point_variance = std::max(noise.point_sigma_m * noise.point_sigma_m, m.var_normal) * noise.correlation / m.count;
+  weight_center = 1.0 / std::sqrt(point_variance + noise.floor_m * noise.floor_m);
+  const auto direction_weight = [&](double variance) {
+    return variance <= 0 ? 0.0 : 1.0 / std::sqrt(point_variance / variance + noise.floor_rad * noise.floor_rad);
+  };
+  weight_u = direction_weight(m.var_u);
+  weight_v = direction_weight(m.var_v);
+}
+
+}  // namespace plumb::runtime

@@ -1,0 +1,30 @@
+// What the map says about one wall's deviation while poses and the plan's place are held: the input of seeding and of the E step.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <vector>
+
+#include "runtime/coupling/wall_frame.h"
+#include "runtime/optimization/joint_optimizer.h"
+#include "runtime/optimization/plane_view.h"
+
+namespace plumb::runtime {
+
+struct WallMeasurement {
+  WallId wall;
+  Eigen::Vector2d deviation;   // (offset_m, yaw_rad), no prior, if there were no range bias; ...
+  Eigen::Vector2d bias_gain;   // ... with a bias b it is deviation + b * bias_gain
+  Eigen::Matrix2d covariance;  // of this wall's own observations and unknown thickness, and of how well poses tie it to the others
+  // What the wall's two faces say about the bias by the thickness they show, as a normal distribution; zero information if one face was seen.
+  double own_bias_m = 0, own_bias_information = 0;
+  [[nodiscard]] Eigen::Vector2d At(double bias_m) const { return deviation + bias_m * bias_gain; }
+};
+
+[[nodiscard]] ViewNoise NoiseOf(const JointOptions& options);
+
+// One per wall that `matches` sees, by wall id. Linear least squares about the planned place (second order in yaw). T_map_kf per keyframe.
+[[nodiscard]] std::vector<WallMeasurement> MeasureWalls(const SGraph& map, const AGraph& plan, const std::vector<WallFrame>& frames,
+                                                        const std::vector<Match>& matches, const std::vector<Eigen::Isometry3d>& T_map_kf,
+                                                        const Eigen::Isometry3d& T_plan_map, const JointOptions& options);
+
+}  // namespace plumb::runtime

@@ -1,0 +1,62 @@
+#include "runtime/sources/recording.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <utility>
+
+namespace plumb::runtime {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The stamp in `SSSSSSSSSS.NNNNNNNNN`; none if the name is something else.
+std::optional<double> ParseStamp(const std::string& stem) {
+  double stamp_s = 0;
+  const char* const end = stem.data() + stem.size();
+  const auto [next, error] = std::from_chars(stem.data(), end, stamp_s, std::chars_format::fixed);
+  const bool number = error == std::errc() && next == end && stem.find_first_not_of("0123456789.") == std::string::npos;
+  return number ? std::optional(stamp_s) : std::nullopt;
+}
+
+}  // namespace
+
+std::string ScanFileName(double stamp_s) { return fmt::format("{:020.9f}.pcd", stamp_s); }
+
+Expected<Recording> Recording::Open(const std::string& folder) {
+  const fs::path scans = fs::path(folder) / "scans";
+  std::error_code error;
+  std::vector<std::pair<double, std::string>> found;
+  for (fs::directory_iterator it(scans, error), end; !error && it != end; it.increment(error)) {
+    const fs::path& path = it->path();
+    if (path.extension() != ".pcd") continue;
+    const std::optional<double> stamp_s = ParseStamp(path.stem().string());
+    if (!stamp_s) {
+      return Fail(ErrorCode::kNotARecording,
+                  fmt::format("`{}`: a scan's name must be its stamp, as `{}`", path.string(), ScanFileName(12.3)));
+    }
+    found.emplace_back(*stamp_s, path.string());
+  }
+  if (error) return Fail(ErrorCode::kNotARecording, fmt::format("`{}` is no recording: cannot list `scans`: {}", folder, error.message()));
+  if (found.empty()) return Fail(ErrorCode::kNotARecording, fmt::format("`{}` is no recording: it has no scans/*.pcd", folder));
+  std::sort(found.begin(), found.end());
+
+  Recording recording;
+  for (auto& [stamp_s, path] : found) {
+    recording.stamps_s_.push_back(stamp_s);
+    recording.scan_paths_.push_back(std::move(path));
+  }
+  const fs::path odometry = fs::path(folder) / "odometry.tum";
+  if (fs::exists(odometry, error)) {
+    Expected<Trajectory> trajectory = ReadTum(odometry.string());
+    if (!trajectory) return tl::unexpected(trajectory.error());
+    recording.odometry_ = std::move(*trajectory);
+  }
+  return recording;
+}
+
+Expected<Scan> Recording::Read(size_t i) const { return ReadPcd(scan_paths_[i], stamps_s_[i]); }
+
+}  // namespace plumb::runtime

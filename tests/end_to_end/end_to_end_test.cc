@@ -1,0 +1,97 @@
+// Plan in, recording in, pose and deviations out: the steps of tools/demo on a plan of our own and a short drive, through the program.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "runtime/sources/recording.h"
+#include "schema/files.h"
+
+namespace plumb {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::json;
+
+// Runs `plumb ARGUMENTS` in `folder`; its exit status.
+int Plumb(const fs::path& folder, const std::string& arguments) {
+  const std::string command = "cd '" + folder.string() + "' && '" PLUMB_PROGRAM "' " + arguments;
+  const int status = std::system(command.c_str());
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+Json ReadJson(const fs::path& path) {
+  const auto text = ReadFileText(path.string());
+  EXPECT_TRUE(text) << text.error().message;
+  return text ? Json::parse(*text) : Json();
+}
+
+class EndToEnd : public ::testing::Test {
+ protected:
+  // One run for all tests: it takes a minute.
+  static void SetUpTestSuite() {
+    folder_ = fs::path(::testing::TempDir()) / "plumb_end_to_end";
+    fs::remove_all(folder_);
+    fs::create_directories(folder_ / "truth");
+    const std::string plan = std::string(PLUMB_SOURCE_DIR) + "/plans/site_office/plan.ifc";
+    ASSERT_EQ(Plumb(folder_, "compile '" + plan + "' -o plan.agraph"), 0);
+    ASSERT_EQ(Plumb(folder_, "simulate plan.agraph --seed 3 --deviate 1 --translation 0.15:0.25 --rotation 0:1 --sensor vlp16 "
+                             "--duration 60 --max-duration 60 -o rec/"),
+              0);
+    // Out of the way: the localizer has to do without.
+    fs::rename(folder_ / "rec/truth.tum", folder_ / "truth/truth.tum");
+    fs::rename(folder_ / "rec/truth.json", folder_ / "truth/truth.json");
+    ASSERT_EQ(Plumb(folder_, "localize plan.agraph rec/ -o run/"), 0);
+  }
+  static void TearDownTestSuite() {
+    if (!HasFailure()) fs::remove_all(folder_);
+  }
+
+  static fs::path folder_;
+};
+
+fs::path EndToEnd::folder_;
+
+TEST_F(EndToEnd, WritesEveryFileOfARun) {
+  for (const char* name : {"trajectory.tum", "trajectory_smoothed.tum", "verdicts.csv", "timing.csv", "map.ply", "deviations.json", "run.json"}) {
+    EXPECT_TRUE(fs::exists(folder_ / "run" / name)) << name;
+  }
+  const auto smoothed = runtime::ReadTum((folder_ / "run/trajectory_smoothed.tum").string());
+  const auto online = runtime::ReadTum((folder_ / "run/trajectory.tum").string());
+  const auto recording = runtime::Recording::Open((folder_ / "rec").string());
+  ASSERT_TRUE(smoothed && online && recording);
+  EXPECT_EQ(smoothed->size(), recording->size());
+  EXPECT_LE(online->size(), smoothed->size());
+  EXPECT_EQ(ReadJson(folder_ / "run/deviations.json").at("version"), 1);
+  EXPECT_EQ(ReadJson(folder_ / "run/run.json").at("summary").at("scans"), recording->size());
+}
+
+TEST_F(EndToEnd, LocalizesAndFindsTheDeviation) {
+  EXPECT_EQ(Plumb(folder_, "evaluate run/ --truth truth/ --json run/evaluation.json --require-localized-within 30 --require-ate 0.06"), 0);
+  const Json evaluation = ReadJson(folder_ / "run/evaluation.json");
+  EXPECT_EQ(evaluation.at("walls_false"), 0);
+  EXPECT_EQ(evaluation.at("walls_missed"), 0);
+  EXPECT_EQ(evaluation.at("walls_found"), 1);
+  EXPECT_LT(evaluation.at("max_error_translation_m").get<double>(), 0.03);
+}
+
+TEST_F(EndToEnd, ReportsAndChecks) {
+  EXPECT_EQ(Plumb(folder_, "report run/ -o run/report.html"), 0);
+  EXPECT_GT(fs::file_size(folder_ / "run/report.html"), 10000u);
+  EXPECT_EQ(Plumb(folder_, "validate plan.agraph"), 0);
+  EXPECT_EQ(Plumb(folder_, "doctor rec/ > doctor.txt"), 0);
+}
+
+TEST_F(EndToEnd, RefusesBadInputWithStatusTwo) {
+  EXPECT_EQ(Plumb(folder_, "localize rec/odometry.tum rec/ -o other/ 2> error.txt"), 2);
+  EXPECT_EQ(Plumb(folder_, "localize plan.agraph truth/ -o other/ 2> error.txt"), 2);
+  EXPECT_EQ(Plumb(folder_, "evaluate truth/ --truth truth/ 2> error.txt"), 2);
+  EXPECT_EQ(Plumb(folder_, "simulate plan.agraph --translation far -o other/ 2> error.txt"), 2);
+}
+
+}  // namespace
+}  // namespace plumb

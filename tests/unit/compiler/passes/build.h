@@ -1,0 +1,43 @@
+// Runs all passes, verifiers on, on a plan made by hand.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include "compiler/passes/build_agraph.h"
+
+namespace plumb::compiler {
+
+inline Built Build(PlanIr plan, DiagnosticSink& sink, PassOptions options = {}) {
+  options.verify = true;
+  std::optional<Built> built = BuildAGraph(plan, options, sink);
+  for (const Diagnostic& d : sink.all()) EXPECT_NE(d.severity, Severity::kError) << d.message;
+  EXPECT_TRUE(built.has_value());
+  return built.value_or(Built{});
+}
+
+inline Built Build(PlanIr plan, PassOptions options = {}) {
+  DiagnosticSink sink;
+  return Build(std::move(plan), sink, options);
+}
+
+inline size_t CountOf(const DiagnosticSink& sink, DiagnosticKind kind) {
+  size_t n = 0;
+  for (const Diagnostic& d : sink.all()) n += d.kind == kind;
+  return n;
+}
+
+inline const Room* FindRoom(const AGraph& graph, const std::string& name) {
+  for (const Room& r : graph.rooms) {
+    if (r.name == name) return &r;
+  }
+  return nullptr;
+}
+
+inline const Wall* FindWall(const AGraph& graph, const std::string& guid) {
+  for (const Wall& w : graph.walls) {
+    if (w.guid == guid) return &w;
+  }
+  return nullptr;
+}
+
+}  // namespace plumb::compiler

@@ -1,0 +1,194 @@
+#include "compiler/passes/doorways.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/support/plan_builder.h"
+#include "tests/unit/compiler/passes/build.h"
+
+namespace plumb::compiler {
+namespace {
+
+const Doorway* FindDoorway(const AGraph& graph, const std::string& guid) {
+  for (const Doorway& d : graph.doorways) {
+    if (d.guid == guid) return &d;
+  }
+  return nullptr;
+}
+
+std::string RoomName(const AGraph& graph, RoomId id) { return id.valid() ? graph.rooms[id.index()].name : "outside"; }
+
+TEST(Doorways, JoinTwoRoomsOrARoomAndTheOutside) {
+  const AGraph graph = Build(test::TwoRooms()).graph;
+  ASSERT_EQ(graph.doorways.size(), 2u);
+  const Doorway *d = FindDoorway(graph, "D"), *e = FindDoorway(graph, "E");
+  ASSERT_TRUE(d != nullptr && e != nullptr);
+  EXPECT_EQ(RoomName(graph, d->room_a), "West");
+  EXPECT_EQ(RoomName(graph, d->room_b), "East");
+  EXPECT_TRUE(d->position.isApprox(Eigen::Vector3d(5, 1.5, 0), 1e-9));
+  EXPECT_NEAR(d->yaw_rad, 0, 1e-9);
+  EXPECT_NEAR(d->width_m, 0.9, 1e-9);
+  EXPECT_NEAR(d->height_m, 2.1, 1e-9);
+  EXPECT_TRUE(d->has_leaf);
+  EXPECT_EQ(RoomName(graph, e->room_a), "West");
+  EXPECT_FALSE(e->room_b.valid());
+  EXPECT_TRUE(e->position.isApprox(Eigen::Vector3d(2, -0.15, 0), 1e-9));
+  EXPECT_NEAR(e->yaw_rad, -std::numbers::pi / 2, 1e-9);
+  EXPECT_EQ(graph.walls[e->wall.index()].guid, "south");
+}
+
+TEST(Doorways, LeavesKnowTheirDoorwayAndWall) {
+  const AGraph graph = Build(test::TwoRooms()).graph;
+  for (const Element& e : graph.elements) {
+    if (e.kind == ElementKind::kDoor) {
+      ASSERT_TRUE(e.doorway.valid());
+      EXPECT_EQ(graph.doorways[e.doorway.index()].guid, e.guid);
+      EXPECT_EQ(graph.doorways[e.doorway.index()].wall, e.wall);
+    }
+    if (e.kind == ElementKind::kWall) {
+      EXPECT_EQ(graph.walls[e.wall.index()].guid, e.guid);
+    }
+  }
+}
+
+TEST(Windows, LieOnTheirWallAndLookOut) {
+  const AGraph graph = Build(test::TwoRooms()).graph;
+  ASSERT_EQ(graph.windows.size(), 1u);
+  EXPECT_TRUE(graph.windows[0].position.isApprox(Eigen::Vector3d(8.15, 2, 0.9), 1e-9));
+  EXPECT_NEAR(graph.windows[0].yaw_rad, 0, 1e-9);
+  EXPECT_NEAR(graph.windows[0].width_m, 1.2, 1e-9);
+  EXPECT_EQ(graph.walls[graph.windows[0].wall.index()].guid, "east");
+}
+
+// TwoRooms with one more opening in the inner wall.
+AGraph WithOpening(double along_m, double width_m, double z_min_m, double z_max_m, double depth_m = 0.22) {
+  PlanIr plan = test::TwoRooms();
+  PlanOpening o;
+  o.guid = "hole";
+  o.wall = 4;  // inner
+  o.body = test::Prism(test::Rectangle({5.11 - depth_m, along_m - width_m / 2}, {5.11, along_m + width_m / 2}), z_min_m, z_max_m);
+  plan.openings.push_back(o);
+  return Build(plan).graph;
+}
+
+TEST(Doorways, AnUnfilledOpeningToTheFloorIsOneWithoutLeaf) {
+  const AGraph graph = WithOpening(3.2, 1.4, 0, 2.2);
+  EXPECT_EQ(graph.rooms.size(), 2u);
+  const Doorway* d = FindDoorway(graph, "hole");
+  ASSERT_TRUE(d != nullptr);
+  EXPECT_FALSE(d->has_leaf);
+  EXPECT_NEAR(d->width_m, 1.4, 1e-9);
+  EXPECT_EQ(RoomName(graph, d->room_b), "East");
+}
+
+TEST(Doorways, HatchesNichesAndSlitsAreNone) {
+  EXPECT_EQ(FindDoorway(WithOpening(3.2, 1.4, 0.9, 2.2), "hole"), nullptr);
+  EXPECT_EQ(FindDoorway(WithOpening(3.2, 1.4, 0, 1.2), "hole"), nullptr);
+  EXPECT_EQ(FindDoorway(WithOpening(3.2, 0.2, 0, 2.2), "hole"), nullptr);
+  EXPECT_EQ(FindDoorway(WithOpening(3.2, 1.4, 0, 2.2, 0.1), "hole"), nullptr);
+}
+
+TEST(Doorways, ADoorWithoutOpeningIsHostedByGeometry) {
+  PlanIr plan = test::TwoRooms();
+  std::erase_if(plan.openings, [](const PlanOpening& o) { return o.guid == "opening-D"; });
+  const AGraph bare = Build(plan).graph;
+  const Doorway* d = FindDoorway(bare, "D");
+  ASSERT_TRUE(d != nullptr);
+  EXPECT_EQ(bare.walls[d->wall.index()].guid, "inner");
+  EXPECT_EQ(RoomName(bare, d->room_b), "East");
+  EXPECT_TRUE(d->position.isApprox(Eigen::Vector3d(5, 1.5, 0), 1e-9));
+
+  // The same, stated as an opening without void and wall.
+  const auto door = std::find_if(plan.elements.begin(), plan.elements.end(), [](const PlanElement& e) { return e.guid == "D"; });
+  PlanOpening chain;
+  chain.filling = static_cast<uint32_t>(door - plan.elements.begin());
+  chain.width_m = 0.95;
+  plan.openings.push_back(chain);
+  const AGraph stated = Build(plan).graph;
+  ASSERT_EQ(stated.doorways.size(), 2u);
+  EXPECT_NEAR(FindDoorway(stated, "D")->width_m, 0.95, 1e-9);
+  EXPECT_EQ(RoomName(stated, FindDoorway(stated, "D")->room_a), "West");
+}
+
+TEST(Doorways, ALooseDoorInAnUnfilledOpeningFillsIt) {
+  PlanIr plan = test::TwoRooms();
+  for (PlanOpening& o : plan.openings) {
+    if (o.guid == "opening-D") o.filling = kNoIndex;
+  }
+  const AGraph graph = Build(plan).graph;
+  ASSERT_EQ(graph.doorways.size(), 2u);
+  const Doorway* d = FindDoorway(graph, "D");
+  ASSERT_TRUE(d != nullptr);
+  EXPECT_TRUE(d->has_leaf);
+}
+
+TEST(Doorways, DoublewalledPassagesReachTheRoomBehind) {
+  PlanIr plan = test::TwoRooms();
+  test::PlanBuilder b;
+  b.plan = plan;
+  b.On(0).Prismatic(ElementKind::kWall, "second skin", test::Rectangle({5.15, 0}, {5.3, 4}), 0, 2.5);  // 5 cm cavity
+  const AGraph graph = Build(b.plan).graph;
+  EXPECT_EQ(graph.rooms.size(), 2u);
+  EXPECT_EQ(RoomName(graph, FindDoorway(graph, "D")->room_b), "East");
+}
+
+TEST(Doorways, OnesThatLeadNowhereAreDiagnosed) {
+  PlanIr plan = test::TwoRooms();
+  test::PlanBuilder b;
+  b.plan = plan;
+  b.On(0);
+  const uint32_t stub = b.Wall("stub", {1, 2}, {3, 2}, 0.1), garden = b.Wall("garden", {20, 2}, {23, 2}, 0.1);
+  PlanElement leaf = plan.elements[5];
+  ASSERT_EQ(leaf.kind, ElementKind::kDoor);
+  const auto add = [&](const std::string& guid, uint32_t wall, const Eigen::Vector2d& lo, const Eigen::Vector2d& hi) {
+    leaf.guid = guid;
+    leaf.body = test::Prism(test::Rectangle(lo, hi), 0, 2.1);
+    b.plan.elements.push_back(leaf);
+    PlanOpening o;
+    o.wall = wall;
+    o.filling = static_cast<uint32_t>(b.plan.elements.size() - 1);
+    o.body = leaf.body;
+    b.plan.openings.push_back(o);
+  };
+  add("within", stub, {1.5, 1.9}, {2.4, 2.1});
+  add("gate", garden, {21, 1.9}, {22, 2.1});
+  add("lone", kNoIndex, {30, 30}, {31, 30.1});
+  DiagnosticSink sink;
+  const AGraph graph = Build(b.plan, sink).graph;
+  EXPECT_EQ(CountOf(sink, DiagnosticKind::kDoorwayWithinRoom), 1u);
+  EXPECT_EQ(CountOf(sink, DiagnosticKind::kDoorwayOutside), 2u);
+  EXPECT_EQ(CountOf(sink, DiagnosticKind::kOpeningWithoutWall), 1u);
+  EXPECT_EQ(FindDoorway(graph, "within")->room_a, FindDoorway(graph, "within")->room_b);
+  EXPECT_FALSE(FindDoorway(graph, "lone")->wall.valid());
+  EXPECT_NEAR(FindDoorway(graph, "lone")->width_m, 1, 1e-9);
+}
+
+TEST(Doorways, OnTheUpperStoreyJoinItsRooms) {
+  PlanIr plan = test::TwoRooms();
+  PlanIr upper = test::Moved(plan, 0, {0, 0, 2.7});
+  plan.storeys.push_back({"up", "Upper", {}, 2.7});
+  const auto base = static_cast<uint32_t>(plan.elements.size());
+  for (PlanElement e : upper.elements) {
+    e.guid += "-up";
+    e.storey = 1;
+    plan.elements.push_back(e);
+  }
+  for (PlanOpening o : upper.openings) {
+    o.wall += base;
+    o.filling += base;
+    plan.openings.push_back(o);
+  }
+  const AGraph graph = Build(plan).graph;
+  ASSERT_EQ(graph.rooms.size(), 4u);
+  const Doorway* d = FindDoorway(graph, "D-up");
+  ASSERT_TRUE(d != nullptr);
+  EXPECT_EQ(d->storey, StoreyId(1));
+  EXPECT_EQ(graph.rooms[d->room_a.index()].storey, StoreyId(1));
+  EXPECT_EQ(graph.rooms[d->room_b.index()].storey, StoreyId(1));
+  EXPECT_NEAR(d->position.z(), 2.7, 1e-9);
+}
+
+}  // namespace
+}  // namespace plumb::compiler

@@ -1,0 +1,183 @@
+#include "runtime/coupling/coupling.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "runtime/coupling/level_matching.h"
+#include "runtime/coupling/wall_frame.h"
+#include "tests/support/house.h"
+#include "tests/support/synthetic_sgraph.h"
+
+namespace plumb::runtime {
+namespace {
+
+constexpr double kDeg = std::numbers::pi / 180;
+
+// A map in plan coordinates: one keyframe, patches added by hand.
+struct Scene {
+  SGraph map;
+  Scene() { map.keyframes.emplace_back(); }
+  uint32_t Add(const Eigen::Vector2d& start, const Eigen::Vector2d& end, double z_min_m = 0.2, double z_max_m = 2.0) {
+    MapSurface s;
+    s.id = static_cast<uint32_t>(map.surfaces.size());
+    const Eigen::Vector2d along = (end - start).normalized();
+    s.plane.n = {-along.y(), along.x(), 0};
+    s.plane.d = -s.plane.n.head<2>().dot(start);
+    s.start = start;
+    s.end = end;
+    s.z_min_m = z_min_m;
+    s.z_max_m = z_max_m;
+    s.area_m2 = (end - start).norm() * (z_max_m - z_min_m);
+    s.observations.resize(1);
+    map.surfaces.push_back(s);
+    return s.id;
+  }
+  // The plan surface that a map surface went to; none if unmatched.
+  SurfaceId Of(const AGraph& plan, uint32_t map_surface, const std::vector<WallDeviation>& known = {}) const {
+    for (const Match& m : MatchSurfaces(map, plan, Eigen::Isometry3d::Identity(), known)) {
+      if (m.map_surface == map_surface) return m.plan_surface;
+    }
+    return {};
+  }
+};
+
+// House surfaces: A 0..3, B 4..7, C 8..11 in the order south, east, north, west.
+TEST(MatchSurfaces, FindsEverySurfaceOfADrive) {
+  const AGraph house = test::MakeHouse();
+  const test::Drive drive = test::DriveThroughHouse(house);
+  const auto matches = MatchSurfaces(drive.map, house, test::Disturbed(drive.T_plan_map, 0.1, -0.1, 1 * kDeg), {});
+  EXPECT_EQ(matches.size(), drive.map.surfaces.size());
+  for (const Match& m : matches) {
+    EXPECT_EQ(m.plan_surface, drive.built[m.map_surface]);
+    EXPECT_EQ(m.room.valid(), drive.map.surfaces[m.map_surface].kind != SurfaceKind::kWall);
+  }
+}
+
+TEST(MatchSurfaces, MeasuresOffsetAlongTheNormalAndYawCounterClockwise) {
+  const AGraph house = test::MakeHouse();
+  Scene scene;
+  scene.Add({9 - 0.2, 1}, {9 - 0.2, 5});  // C's east wall (normal -x), 0.2 m into the room
+  const auto matches = MatchSurfaces(scene.map, house, Eigen::Isometry3d::Identity(), {});
+  ASSERT_EQ(matches.size(), 1u);
+  EXPECT_EQ(matches[0].plan_surface, SurfaceId(9));
+  EXPECT_NEAR(matches[0].offset_m, 0.2, 1e-9);
+  EXPECT_NEAR(matches[0].yaw_rad, 0, 1e-9);
+
+  Scene turned;
+  const Eigen::Vector2d half = Eigen::Rotation2Dd(5 * kDeg) * Eigen::Vector2d(0, 2);
+  turned.Add(Eigen::Vector2d(9, 3) - half, Eigen::Vector2d(9, 3) + half);
+  EXPECT_NEAR(MatchSurfaces(turned.map, house, Eigen::Isometry3d::Identity(), {}).at(0).yaw_rad, 5 * kDeg, 1e-9);
+}
+
+TEST(MatchSurfaces, NeverMatchesTheOtherFaceOfAWall) {
+  const AGraph house = test::MakeHouse();
+  Scene scene;
+  const uint32_t in_c = scene.Add({5.06, 5.0}, {5.06, 1.0});   // normal +x: C's west
+  const uint32_t in_a = scene.Add({4.94, 0.5}, {4.94, 3.0});   // normal -x: A's east
+  EXPECT_EQ(scene.Of(house, in_c), SurfaceId(11));
+  EXPECT_EQ(scene.Of(house, in_a), SurfaceId(1));
+}
+
+TEST(MatchSurfaces, RespectsGatesOfOverlapHeightAndDistance) {
+  const AGraph house = test::MakeHouse();
+  Scene scene;
+  EXPECT_FALSE(scene.Of(house, scene.Add({8.2, 1}, {8.2, 5})).valid());             // 0.8 m off
+  EXPECT_FALSE(scene.Of(house, scene.Add({9.0, 6.5}, {9.0, 8.0})).valid());         // beyond the wall's end
+  EXPECT_FALSE(scene.Of(house, scene.Add({9.0, 1}, {9.0, 5}, 2.7, 5.0)).valid());   // a storey higher
+  EXPECT_TRUE(scene.Of(house, scene.Add({9.0, 1}, {9.0, 5})).valid());
+}
+
+TEST(MatchSurfaces, KnownDeviationKeepsAPatchThatIsFarFromThePlan) {
+  const AGraph house = test::MakeHouse();
+  Scene scene;
+  const uint32_t patch = scene.Add({9 - 0.7, 1}, {9 - 0.7, 5});
+  EXPECT_FALSE(scene.Of(house, patch).valid());
+  std::vector<WallDeviation> known(house.walls.size());
+  known[1] = {house.surfaces[WallFrames(house)[1].reference.index()].normal.x() < 0 ? 0.65 : -0.65, 0};
+  EXPECT_EQ(scene.Of(house, patch, known), SurfaceId(9));
+}
+
+TEST(MatchSurfaces, WallBehindACupboardIsTheWall) {
+  const AGraph house = test::MakeHouse();
+  Scene scene;
+  const uint32_t wall_a = scene.Add({9, 0.3}, {9, 1.5}), front = scene.Add({8.5, 1.5}, {8.5, 4}, 0.2, 1.8), wall_b = scene.Add({9, 4}, {9, 5.7});
+  EXPECT_EQ(scene.Of(house, wall_a), SurfaceId(9));
+  EXPECT_EQ(scene.Of(house, wall_b), SurfaceId(9));
+  EXPECT_FALSE(scene.Of(house, front).valid());
+}
+
+// The wall was built 0.3 m further out, and a cupboard stands where the plan has the wall.
+TEST(MatchSurfaces, WallBehindWinsEvenIfTheCupboardStandsOnThePlannedLine) {
+  const AGraph house = test::MakeHouse();
+  Scene scene;
+  const uint32_t wall = scene.Add({9.3, 0.3}, {9.3, 2.5}, 0.2, 2.5), front = scene.Add({9, 2.5}, {9, 5.5}, 0.2, 1.8);
+  EXPECT_EQ(scene.Of(house, wall), SurfaceId(9));
+  EXPECT_FALSE(scene.Of(house, front).valid());
+}
+
+TEST(MatchSurfaces, SmallLowNicheBehindAWallIsNotTheWall) {
+  const AGraph house = test::MakeHouse();
+  Scene scene;
+  const uint32_t wall = scene.Add({9, 0.3}, {9, 5.7}, 0.2, 2.3), niche = scene.Add({9.25, 2.0}, {9.25, 3.2}, 0.2, 0.9);
+  EXPECT_EQ(scene.Of(house, wall), SurfaceId(9));
+  EXPECT_FALSE(scene.Of(house, niche).valid());
+}
+
+// Two plan faces 0.3 m apart, both built 0.2 m further: each patch alone would prefer the wrong one.
+TEST(MatchSurfaces, CompetingFacesAreDecidedTogether) {
+  AGraph plan = test::MakeHouse();
+  Wall extra = plan.walls[1];
+  extra.guid = "wall-extra";
+  plan.walls.push_back(extra);
+  Surface face = plan.surfaces[9];  // C's east
+  face.wall = WallId(plan.walls.size() - 1);
+  face.start.x() -= 0.3;
+  face.end.x() -= 0.3;
+  face.d_m -= 0.3;
+  plan.surfaces.push_back(face);
+  Scene scene;
+  const uint32_t outer = scene.Add({8.8, 0.5}, {8.8, 5.5}), inner = scene.Add({8.5, 0.5}, {8.5, 5.5});
+  EXPECT_EQ(scene.Of(plan, outer), SurfaceId(9));
+  EXPECT_EQ(scene.Of(plan, inner), SurfaceId(plan.surfaces.size() - 1));
+}
+
+TEST(MatchSurfaces, PatchesOfATurnedWallStayTogether) {
+  const AGraph house = test::MakeHouse();
+  Scene scene;
+  const auto at = [](double y) { return Eigen::Vector2d(9 - std::tan(5 * kDeg) * (y - 3), y); };
+  const uint32_t a = scene.Add(at(0.3), at(2)), b = scene.Add(at(2.5), at(4)), c = scene.Add(at(4.3), at(5.8));
+  for (uint32_t patch : {a, b, c}) EXPECT_EQ(scene.Of(house, patch), SurfaceId(9));
+}
+
+TEST(MatchLevels, FloorGoesToTheRoomItLiesIn) {
+  const AGraph house = test::MakeHouse();
+  EXPECT_TRUE(Contains(house.rooms[0], {1, 1}));
+  EXPECT_FALSE(Contains(house.rooms[0], {6, 1}));
+  Scene scene;
+  MapSurface floor;
+  floor.kind = SurfaceKind::kFloor;
+  floor.plane.n = Eigen::Vector3d::UnitZ();
+  Observation o;
+  for (const Eigen::Vector3d& p : {Eigen::Vector3d(6, 1, 0.02), Eigen::Vector3d(7, 2, 0.02), Eigen::Vector3d(6.5, 3, 0.02)}) o.stats.Add(p);
+  floor.observations.push_back(o);
+  scene.map.surfaces.push_back(floor);
+  MapSurface table = floor;
+  table.observations[0].stats = o.stats.Transformed(Eigen::Isometry3d(Eigen::Translation3d(0, 0, 0.75)));
+  scene.map.surfaces.push_back(table);
+  const auto matches = MatchSurfaces(scene.map, house, Eigen::Isometry3d::Identity(), {});
+  ASSERT_EQ(matches.size(), 1u);
+  EXPECT_EQ(matches[0].room, RoomId(2));
+  EXPECT_NEAR(matches[0].offset_m, 0.02, 1e-9);
+}
+
+TEST(CouplingOptions, CheckNamesFieldValueAndRule) {
+  EXPECT_EQ(CouplingOptions{}.Check(), "");
+  CouplingOptions options;
+  options.min_overlap_ratio = 1.5;
+  EXPECT_EQ(options.Check(), "CouplingOptions.min_overlap_ratio = 1.5; must be in [0, 1]");
+}
+
+}  // namespace
+}  // namespace plumb::runtime

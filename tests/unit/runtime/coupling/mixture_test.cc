@@ -1,0 +1,47 @@
+#include "runtime/coupling/mixture.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace plumb::runtime {
+namespace {
+
+const Eigen::Matrix2d kPrecise = Eigen::Vector2d(1e-6, 1e-6).asDiagonal();
+
+TEST(Mixture, OffsetAndYawDeviateEachOnTheirOwn) {
+  const Responsibilities none = AssessMixture({0.002, 0.001}, kPrecise, {});
+  EXPECT_LT(none.any, 0.05);
+  const Responsibilities offset = AssessMixture({0.15, 0.001}, kPrecise, {});
+  EXPECT_GT(offset.offset, 0.999);
+  EXPECT_LT(offset.yaw, 0.1);
+  EXPECT_GT(offset.any, 0.999);
+  const Responsibilities yaw = AssessMixture({0.002, 0.08}, kPrecise, {});
+  EXPECT_LT(yaw.offset, 0.1);
+  EXPECT_GT(yaw.yaw, 0.999);
+}
+
+TEST(Mixture, DensityIntegratesToOne) {
+  const Eigen::Matrix2d cov = Eigen::Vector2d(1e-4, 1e-4).asDiagonal();
+  double sum = 0;
+  constexpr double kStep = 0.004;
+  for (double x = -1.2; x < 1.2; x += kStep) {
+    for (double y = -0.9; y < 0.9; y += kStep) sum += std::exp(-AssessMixture({x, y}, cov, {}).cost_nats) * kStep * kStep;
+  }
+  EXPECT_NEAR(sum, 1, 0.01);
+}
+
+TEST(Mixture, AVagueMeasurementLeavesThePrior) {
+  const Responsibilities r = AssessMixture({0, 0}, Eigen::Matrix2d::Identity() * 100, {});
+  EXPECT_NEAR(r.any, CouplingOptions{}.deviated_ratio, 0.01);
+}
+
+TEST(Mixture, PriorInformationRunsFromTightToWide) {
+  const CouplingOptions options;
+  EXPECT_DOUBLE_EQ(PriorInformation({0, 0, 0, 0}, options).x(), 1 / (options.offset_tau0_m * options.offset_tau0_m));
+  EXPECT_DOUBLE_EQ(PriorInformation({1, 1, 1, 0}, options).y(), 1 / (options.yaw_tau1_rad * options.yaw_tau1_rad));
+}
+
+}  // namespace
+}  // namespace plumb::runtime

@@ -1,0 +1,139 @@
+#include "runtime/deviations/deviations.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "runtime/coupling/wall_frame.h"
+#include "tests/support/house.h"
+#include "tests/support/synthetic_sgraph.h"
+
+namespace plumb::runtime {
+namespace {
+
+constexpr double kDeg = std::numbers::pi / 180;
+enum HouseWall : size_t { kSouth, kEast, kNorth, kWest, kMiddle, kAcross, kNumWalls };
+
+DeviationReport Assess(const AGraph& house, const test::DriveOptions& options) {
+  test::Drive drive = test::DriveThroughHouse(house, options);
+  Eigen::Isometry3d T = test::Disturbed(drive.T_plan_map, -0.03, 0.05, -0.5 * kDeg);
+  JointResult result;
+  for (int i = 0; i < 2; ++i) {
+    result = OptimizeJointly(drive.map, house, MatchSurfaces(drive.map, house, T, result.Deviations(house.walls.size())), T);
+    T = result.T_plan_map;
+    for (size_t k = 0; k < result.T_map_kf.size(); ++k) drive.map.keyframes[k].T_map_kf = result.T_map_kf[k];
+  }
+  return AssessDeviations(house, result);
+}
+
+test::DriveOptions Drive(uint64_t seed) {
+  test::DriveOptions options;
+  options.seed = seed;
+  options.deviations.assign(kNumWalls, {});
+  return options;
+}
+
+TEST(AssessDeviations, NoFalsePositivesOverSeeds) {
+  const AGraph house = test::MakeHouse();
+  for (uint64_t seed = 1; seed <= 20; ++seed) {
+    const DeviationReport report = Assess(house, Drive(seed));
+    ASSERT_EQ(report.surfaces.size(), house.surfaces.size());
+    for (const SurfaceDeviation& d : report.surfaces) EXPECT_EQ(d.status, SurfaceStatus::kAsPlanned) << "seed " << seed << " surface " << d.surface.value;
+    for (const RoomDeviation& d : report.rooms) EXPECT_EQ(d.status, SurfaceStatus::kAsPlanned);
+  }
+}
+
+TEST(AssessDeviations, FindsTwoDeviatedWallsOfSixAndNoOther) {
+  const AGraph house = test::MakeHouse();
+  test::Random random(17);
+  for (uint64_t seed = 1; seed <= 20; ++seed) {
+    test::DriveOptions options = Drive(seed);
+    const HouseWall first = std::array{kEast, kWest, kMiddle}[seed % 3], second = std::array{kSouth, kNorth, kAcross}[seed / 3 % 3];
+    for (HouseWall w : {first, second}) {
+      options.deviations[w] = {(random.Uniform(-1, 1) < 0 ? -1 : 1) * random.Uniform(0.05, 0.40), random.Uniform(-5, 5) * kDeg};
+    }
+    const DeviationReport report = Assess(house, options);
+    for (const SurfaceDeviation& d : report.surfaces) {
+      const size_t wall = house.surfaces[d.surface.index()].wall.index();
+      const bool deviates = wall == first || wall == second;
+      EXPECT_EQ(d.status, deviates ? SurfaceStatus::kDeviated : SurfaceStatus::kAsPlanned)
+          << "seed " << seed << " wall " << wall << ": " << options.deviations[wall].offset_m << " m, found " << d.translation_m << " p " << d.p_deviated;
+      EXPECT_NEAR(d.rotation_rad, options.deviations[wall].yaw_rad, 0.3 * kDeg);
+    }
+  }
+}
+
+TEST(AssessDeviations, FacesCarryTheWallsMotionAlongTheirOwnNormals) {
+  const AGraph house = test::MakeHouse();
+  test::DriveOptions options = Drive(3);
+  options.deviations[kMiddle] = {0.2, 0};
+  const DeviationReport report = Assess(house, options);
+  const double sign = house.surfaces[WallFrames(house)[kMiddle].reference.index()].normal.x();  // world direction of +offset
+  for (size_t i = 0; i < house.surfaces.size(); ++i) {
+    if (house.surfaces[i].wall != WallId(kMiddle)) continue;
+    EXPECT_EQ(report.surfaces[i].status, SurfaceStatus::kDeviated);
+    EXPECT_NEAR(report.surfaces[i].translation_m, 0.2 * sign * house.surfaces[i].normal.x(), 0.01);
+    EXPECT_GT(report.surfaces[i].sigma_translation_m, 0.0005);
+    EXPECT_GT(report.surfaces[i].observed_m2, 1);
+  }
+  // Rooms A and C share it: one grows by what the other loses.
+  EXPECT_NEAR(report.rooms[0].translation_m.x(), 0.1 * sign, 0.02);
+  EXPECT_NEAR(report.rooms[2].translation_m.x(), 0.1 * sign, 0.02);
+}
+
+TEST(AssessDeviations, HardlySeenWallsAreUnobserved) {
+  const AGraph house = test::MakeHouse();
+  JointResult estimate;
+  WallEstimate w;
+  w.wall = WallId(kEast);
+  w.reference = WallFrames(house)[kEast].reference;
+  w.deviation = {0.3, 0};
+  w.cov = Eigen::Matrix2d::Identity() * 1e-6;
+  w.cov_all = Eigen::Matrix4d::Identity() * 1e-6;
+  w.p_deviated = 1;
+  w.observed_m2 = 0.2;
+  estimate.walls.push_back(w);
+  const DeviationReport report = AssessDeviations(house, estimate);
+  for (const SurfaceDeviation& d : report.surfaces) EXPECT_EQ(d.status, SurfaceStatus::kUnobserved);
+  estimate.walls[0].observed_m2 = 3;
+  EXPECT_EQ(AssessDeviations(house, estimate).surfaces[9].status, SurfaceStatus::kDeviated);
+  estimate.walls[0].deviation = {0.015, 0};  // certain, but below what counts
+  EXPECT_EQ(AssessDeviations(house, estimate).surfaces[9].status, SurfaceStatus::kAsPlanned);
+}
+
+TEST(DeviationsToJson, HasTheAgreedForm) {
+  const AGraph house = test::MakeHouse();
+  test::DriveOptions options = Drive(3);
+  options.deviations[kEast] = {0.2, 3 * kDeg};
+  const DeviationReport report = Assess(house, options);
+  const std::string text = DeviationsToJson(house, report);
+  const auto json = nlohmann::json::parse(text);
+  EXPECT_EQ(json["version"], 1);
+  EXPECT_EQ(json["gauge"], report.gauge);
+  ASSERT_EQ(json["surfaces"].size(), house.surfaces.size());
+  const auto& east = json["surfaces"][9];
+  EXPECT_EQ(east["id"], 9);
+  EXPECT_EQ(east["wall_guid"], "wall-east");
+  EXPECT_EQ(east["storey"], "Ground floor");
+  EXPECT_EQ(east["status"], "deviated");
+  EXPECT_NEAR(east["rotation_deg"], 3, 0.3);
+  EXPECT_NEAR(std::abs(east["translation_m"].get<double>()), 0.2, 0.01);
+  for (const char* key : {"normal", "sigma_translation_m", "sigma_rotation_deg", "tilt_deg", "p_deviated", "observed_m2", "points"}) EXPECT_TRUE(east.contains(key));
+  ASSERT_EQ(json["rooms"].size(), 3u);
+  for (const char* key : {"id", "name", "guid", "translation_m", "rotation_deg", "sigma_m", "status"}) EXPECT_TRUE(json["rooms"][2].contains(key));
+  EXPECT_TRUE(json["unplanned"].empty());
+  EXPECT_EQ(DeviationsToJson(house, Assess(house, options)), text);
+}
+
+TEST(DeviationOptions, CheckNamesFieldValueAndRule) {
+  EXPECT_EQ(DeviationOptions{}.Check(), "");
+  DeviationOptions options;
+  options.false_discovery_rate = 0;
+  EXPECT_EQ(options.Check(), "DeviationOptions.false_discovery_rate = 0; must be in (0, 1)");
+}
+
+}  // namespace
+}  // namespace plumb::runtime

@@ -1,0 +1,103 @@
+#include "tools/evaluate/wall_results.h"
+
+#include <gtest/gtest.h>
+
+namespace plumb::tools {
+namespace {
+
+SurfaceEntry Entry(uint32_t id, const std::string& wall, const std::string& status, double translation_m = 0, double rotation_deg = 0) {
+  SurfaceEntry s;
+  s.id = SurfaceId(id);
+  s.wall_guid = wall;
+  s.status = status;
+  s.translation_m = translation_m;
+  s.rotation_deg = rotation_deg;
+  return s;
+}
+
+// Wall A (surfaces 0 and 1, seen from either side) is built 20 cm off, wall B (2) 10 cm, wall C (3) is where it should be.
+Truth MakeTruth() {
+  Truth truth;
+  truth.has_walls = true;
+  WallTruth a{"A", 0.20, 2, {}};
+  a.surfaces[SurfaceId(0)] = {0.20, 2};
+  a.surfaces[SurfaceId(1)] = {-0.20, 2};
+  WallTruth b{"B", -0.10, 0, {}};
+  b.surfaces[SurfaceId(2)] = {-0.10, 0};
+  truth.walls = {a, b, WallTruth{"C", 0, 0, {}}};
+  return truth;
+}
+
+TEST(CompareWalls, TellsFoundMissedAndFalseApart) {
+  const Deviations reported{"", {Entry(0, "A", "deviated", 0.19, 2.5), Entry(1, "A", "unobserved"), Entry(2, "B", "as_planned", -0.01), Entry(3, "C", "deviated", 0.06)}, {}};
+  const auto results = CompareWalls(MakeTruth(), reported, 200);
+  ASSERT_EQ(results.size(), 3u);
+  EXPECT_EQ(results[0].guid, "A");
+  EXPECT_EQ(results[0].outcome, WallOutcome::kFound);
+  EXPECT_NEAR(results[0].error_translation_m, 0.01, 1e-12);
+  EXPECT_NEAR(results[0].error_rotation_deg, 0.5, 1e-12);
+  EXPECT_EQ(results[1].guid, "B");
+  EXPECT_EQ(results[1].outcome, WallOutcome::kMissed);
+  EXPECT_EQ(results[2].guid, "C");
+  EXPECT_EQ(results[2].outcome, WallOutcome::kFalse);
+  EXPECT_NEAR(results[2].measured_translation_m, 0.06, 1e-12);
+  EXPECT_EQ(results[2].error_translation_m, 0);
+}
+
+TEST(CompareWalls, TakesTheWorstReportedSideOfAWall) {
+  // The far side has the other sign: its error is 3 cm, not 37.
+  const Deviations reported{"", {Entry(0, "A", "deviated", 0.21, 2), Entry(1, "A", "deviated", -0.17, 2)}, {}};
+  const auto results = CompareWalls(MakeTruth(), reported, 200);
+  ASSERT_GE(results.size(), 1u);
+  EXPECT_EQ(results[0].surface, SurfaceId(1));
+  EXPECT_NEAR(results[0].error_translation_m, 0.03, 1e-12);
+  EXPECT_NEAR(results[0].true_translation_m, -0.20, 1e-12);
+}
+
+TEST(CompareWalls, WallsThatTheSensorDidNotSeeAreNotMissed) {
+  Truth truth = MakeTruth();
+  truth.surface_points = {{SurfaceId(0), 150}, {SurfaceId(1), 50}, {SurfaceId(2), 5000}};
+  const Deviations reported{"", {Entry(0, "A", "as_planned"), Entry(1, "A", "unobserved"), Entry(2, "B", "unobserved")}, {}};
+  const auto results = CompareWalls(truth, reported, 200);
+  ASSERT_EQ(results.size(), 2u);
+  EXPECT_EQ(results[0].guid, "B");  // the run calls it unobserved, but thousands of returns say otherwise
+  EXPECT_EQ(results[0].outcome, WallOutcome::kMissed);
+  EXPECT_EQ(results[1].guid, "A");
+  EXPECT_EQ(results[1].outcome, WallOutcome::kUnobserved);
+}
+
+TEST(CompareWalls, WithoutCountsTheRunSaysWhatWasObserved) {
+  const Deviations reported{"", {Entry(0, "A", "unobserved"), Entry(1, "A", "as_planned"), Entry(2, "B", "unobserved")}, {}};
+  const auto results = CompareWalls(MakeTruth(), reported, 200);
+  ASSERT_EQ(results.size(), 2u);
+  EXPECT_EQ(results[0].outcome, WallOutcome::kMissed);
+  EXPECT_EQ(results[1].outcome, WallOutcome::kUnobserved);
+}
+
+TEST(CompareWalls, AWallThatTheRunDoesNotKnowIsUnobserved) {
+  const auto results = CompareWalls(MakeTruth(), {}, 200);
+  ASSERT_EQ(results.size(), 2u);
+  EXPECT_EQ(results[0].outcome, WallOutcome::kUnobserved);
+}
+
+TEST(ParseTruth, ReadsWallsAndPointCounts) {
+  const auto truth = ParseTruth(R"({"version":1,"walls":[{"wall_guid":"A","translation_m":0.2,"rotation_deg":-1.5,
+    "surfaces":[{"id":7,"translation_m":-0.2,"rotation_deg":-1.5}]}],"surface_points":{"7":1234}})",
+                                "truth.json");
+  ASSERT_TRUE(truth) << truth.error().message;
+  ASSERT_EQ(truth->walls.size(), 1u);
+  EXPECT_EQ(truth->walls[0].surfaces.at(SurfaceId(7)).translation_m, -0.2);
+  EXPECT_EQ(truth->surface_points.at(SurfaceId(7)), 1234);
+  EXPECT_TRUE(truth->walls[0].deviates());
+}
+
+TEST(ParseTruth, RefusesWhatItCannotRead) {
+  EXPECT_FALSE(ParseTruth("{", "truth.json"));
+  EXPECT_FALSE(ParseTruth(R"({"version":2,"walls":[]})", "truth.json"));
+  EXPECT_FALSE(ParseTruth(R"({"version":1})", "truth.json"));
+  EXPECT_FALSE(ParseTruth(R"({"version":1,"walls":[],"surface_points":{"x7":1}})", "truth.json"));
+  EXPECT_EQ(ReadTruth("/nonexistent").error().code, ErrorCode::kNotARecording);
+}
+
+}  // namespace
+}  // namespace plumb::tools

@@ -1,0 +1,78 @@
+#include "tools/plumb/config.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+
+#include "schema/files.h"
+
+namespace plumb::tools {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+class Config : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    CLI::App* simulate = app_.add_subcommand("simulate");
+    simulate->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)->always_capture_default();
+    simulate->add_option("PLAN", plan_);
+    simulate->add_option("--seed", seed_);
+    simulate->add_option("--sensor", sensor_);
+    simulate->add_flag("--quiet", quiet_);
+    app_.add_subcommand("localize");
+  }
+  void TearDown() override { std::filesystem::remove(path_); }
+
+  Expected<std::vector<std::string>> Expand(const std::string& toml) {
+    EXPECT_TRUE(WriteFileAtomically(path_, std::string_view(toml)));
+    return ExpandConfig(app_, {"simulate", "a.agraph", "--config", path_, "--seed", "9"});
+  }
+
+  CLI::App app_{"test"};
+  std::string plan_, sensor_ = "vlp16";
+  int seed_ = 1;
+  bool quiet_ = false;
+  std::string path_ = ::testing::TempDir() + "/plumb_config_test.toml";
+};
+
+TEST_F(Config, KeysBecomeFlagsBeforeThoseOfTheCommandLine) {
+  const auto out = Expand("seed = 4\nquiet = true\n[simulate]\nsensor = \"a \\\"b\\\"\"\n[localize]\nanything = 1\n");
+  ASSERT_TRUE(out) << out.error().message;
+  EXPECT_THAT(*out, ElementsAre("simulate", "--quiet=true", "--seed=4", "--sensor=a \"b\"", "a.agraph", "--config", path_, "--seed", "9"));
+}
+
+TEST_F(Config, UnknownKeysAreErrorsWithTheNearestName) {
+  const auto out = Expand("\nsede = 4\n");
+  ASSERT_FALSE(out);
+  EXPECT_EQ(out.error().code, ErrorCode::kBadOption);
+  EXPECT_THAT(out.error().message, HasSubstr(":2`"));
+  EXPECT_THAT(out.error().message, HasSubstr("did you mean `seed`?"));
+  EXPECT_THAT(Expand("[simulat]\nseed=1\n").error().message, HasSubstr("did you mean `simulate`?"));
+  EXPECT_THAT(Expand("seed = [1, 2]\n").error().message, HasSubstr("neither a number"));
+  EXPECT_THAT(Expand("seed = \n").error().message, HasSubstr("no TOML"));
+}
+
+TEST_F(Config, PrintedConfigReadsBack) {
+  sensor_ = "back\\slash \"quote\"";
+  app_.get_subcommand("simulate")->get_option("--sensor")->capture_default_str();
+  const std::string toml = ConfigToToml(*app_.get_subcommand("simulate"));
+  EXPECT_THAT(toml, HasSubstr("[simulate]\nseed = 1\n"));
+  const auto out = Expand(toml);
+  ASSERT_TRUE(out) << out.error().message;
+  EXPECT_THAT(*out, ::testing::Contains("--sensor=" + sensor_));
+  EXPECT_THAT(*out, ::testing::Contains("--quiet=false"));
+}
+
+TEST(NearestName, IsEmptyWhereNothingIsNear) {
+  const std::vector<std::string> names = {"seed", "sensor", "sensor-height"};
+  EXPECT_EQ(NearestName("sensr", names), "sensor");
+  EXPECT_EQ(NearestName("sensor-hieght", names), "sensor-height");
+  EXPECT_EQ(NearestName("frobnicate", names), "");
+}
+
+}  // namespace
+}  // namespace plumb::tools

@@ -1,0 +1,129 @@
+#include "tools/report/report.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+
+#include "schema/files.h"
+#include "tests/support/house.h"
+#include "tools/report/deviation_overlay.h"
+#include "tools/report/floor_plan_svg.h"
+
+namespace plumb::tools {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+// A run in the house: localized after 2 s; the wall between A and C is 20 cm off and turned, the one across 9 cm the other way.
+Run MakeRun(const AGraph& house) {
+  tools::Run run;
+  for (int i = 0; i < 300; ++i) {
+    const double t = 0.1 * i;
+    run.verdicts.push_back({t, i < 20 ? "searching" : "localized", i < 20 ? 0 : 1});
+    runtime::StampedPose pose;
+    pose.stamp_s = t;
+    pose.T.translation() << 1.0 + 0.023 * i, 2.75 + 0.6 * std::sin(0.05 * i), 0.6;
+    run.smoothed.push_back(pose);
+    if (i >= 20) run.online.push_back(pose);
+  }
+  run.deviations.gauge = "fewest walls deviate";
+  for (size_t i = 0; i < house.surfaces.size(); ++i) {
+    const Surface& surface = house.surfaces[i];
+    SurfaceEntry s;
+    s.id = SurfaceId(i);
+    s.wall_guid = house.walls[surface.wall.index()].guid;
+    s.status = surface.room.valid() ? "as_planned" : "unobserved";
+    s.points = 1000;
+    s.sigma_translation_m = 0.004;
+    const double sign = surface.normal.x() + surface.normal.y() > 0 ? 1 : -1;
+    if (s.wall_guid == "wall-middle") s.status = "deviated", s.translation_m = sign * 0.203, s.rotation_deg = 2.1, s.p_deviated = 0.999;
+    if (s.wall_guid == "wall-across") s.status = "deviated", s.translation_m = -sign * 0.09, s.p_deviated = 0.99;
+    run.deviations.surfaces.push_back(s);
+  }
+  for (size_t i = 0; i < house.rooms.size(); ++i) {
+    RoomEntry room;
+    room.id = RoomId(i);
+    room.status = i == 2 ? "as_planned" : "deviated";
+    room.translation_m = {0.1, 0.0};
+    run.deviations.rooms.push_back(room);
+  }
+  return run;
+}
+
+RunInfo MakeInfo() {
+  RunInfo info;
+  info.plan_source = "plans/house.ifc";
+  info.scans = 300;
+  info.localized_scans = 280;
+  info.time_to_localize_s = 2.0;
+  return info;
+}
+
+TEST(Report, IsOnePageThatNeedsNothingElse) {
+  const AGraph house = test::MakeHouse();
+  const auto html = RunToHtml(house, MakeRun(house), MakeInfo());
+  ASSERT_TRUE(html) << html.error().message;
+  if (const char* path = std::getenv("PLUMB_TEST_REPORT")) {
+    ASSERT_TRUE(WriteFileAtomically(path, std::string_view(*html)));
+  }
+  for (const char* part : {"src=", "href=", "@import", "http:", "https:"}) EXPECT_THAT(*html, Not(HasSubstr(part))) << part;
+  EXPECT_THAT(*html, HasSubstr("<title>house.ifc as built</title>"));
+  EXPECT_THAT(*html, HasSubstr("<b>2.0 s</b>"));
+  EXPECT_THAT(*html, HasSubstr("<b>2 of 6</b><span>observed walls deviate"));
+  EXPECT_THAT(*html, HasSubstr("20.3 cm</text>"));
+  EXPECT_EQ(*html, *RunToHtml(house, MakeRun(house), MakeInfo()));
+}
+
+TEST(Report, ListsDeviatedWallsBySize) {
+  const AGraph house = test::MakeHouse();
+  const tools::Run run = MakeRun(house);
+  const auto rows = WallRows(house, run.deviations);
+  ASSERT_EQ(rows.size(), house.walls.size());
+  EXPECT_EQ(rows[0].surface->wall_guid, "wall-middle");
+  EXPECT_EQ(rows[0].number, 1);
+  EXPECT_EQ(rows[1].surface->wall_guid, "wall-across");
+  EXPECT_EQ(rows[2].number, 0);
+}
+
+TEST(Report, TheBuiltSurfaceIsShiftedAlongTheNormalAndTurnedAboutItsMiddle) {
+  AGraph house = test::MakeHouse();
+  Deviations deviations;
+  SurfaceEntry s;
+  s.id = house.rooms[0].surfaces[0];  // south wall seen from A: (0,0) to (4.94,0), normal +y
+  s.status = "deviated";
+  s.translation_m = 0.10;
+  s.rotation_deg = 90;
+  deviations.surfaces = {s};
+  const Sheet sheet = SheetOf(house, StoreyId(0));
+  // Turned by 90 degrees the wall stands upright at its middle: from y = 0.1 - 2.47 to y = 0.1 + 2.47.
+  EXPECT_THAT(DrawSurfaces(house, StoreyId(0), deviations, 0.1, sheet),
+              HasSubstr("class=\"dev built\" d=\"" + sheet.Line({2.47, -2.37}, {2.47, 2.57}) + "\""));
+}
+
+TEST(Report, SaysWhenNothingWasFound) {
+  const AGraph house = test::MakeHouse();
+  tools::Run run;
+  run.verdicts = {{0, "searching", 0}};
+  RunInfo info = MakeInfo();
+  info.time_to_localize_s.reset();
+  info.last_reason = "too few walls seen";
+  const auto html = RunToHtml(house, run, info);
+  ASSERT_TRUE(html);
+  EXPECT_THAT(*html, HasSubstr("was not localized in this plan: too few walls seen"));
+}
+
+TEST(Report, RefusesARunOfAnotherPlan) {
+  const AGraph house = test::MakeHouse();
+  tools::Run run = MakeRun(house);
+  run.deviations.surfaces.back().id = SurfaceId(99);
+  const auto html = RunToHtml(house, run, MakeInfo());
+  ASSERT_FALSE(html);
+  EXPECT_EQ(html.error().code, ErrorCode::kBadRunFolder);
+  EXPECT_THAT(html.error().message, HasSubstr("surface 99"));
+}
+
+}  // namespace
+}  // namespace plumb::tools

@@ -1,0 +1,111 @@
+#include <fmt/format.h>
+
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "tools/evaluate/evaluate.h"
+
+namespace plumb::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+double Degrees(double rad) { return rad * 180 / std::numbers::pi; }
+
+Json ErrorsToJson(const PoseErrors& e) {
+  return {{"poses", e.count},
+          {"without_truth", e.without_truth},
+          {"ate_rmse_m", e.rmse_m},
+          {"ate_mean_m", e.mean_m},
+          {"ate_max_m", e.max_m},
+          {"yaw_rmse_deg", Degrees(e.yaw_rmse_rad)},
+          {"yaw_max_deg", Degrees(e.yaw_max_rad)}};
+}
+
+Json WallToJson(const WallResult& w) {
+  Json out;
+  out["wall_guid"] = w.guid;
+  out["outcome"] = WallOutcomeName(w.outcome);
+  out["surface"] = w.surface.valid() ? Json(w.surface.value) : Json(nullptr);
+  out["true_translation_m"] = w.true_translation_m;
+  out["true_rotation_deg"] = w.true_rotation_deg;
+  if (w.surface.valid()) {
+    out["translation_m"] = w.measured_translation_m;
+    out["sigma_translation_m"] = w.sigma_translation_m;
+    out["rotation_deg"] = w.measured_rotation_deg;
+  }
+  if (w.outcome == WallOutcome::kFound) {
+    out["error_translation_m"] = w.error_translation_m;
+    out["error_rotation_deg"] = w.error_rotation_deg;
+  }
+  return out;
+}
+
+std::string PoseLine(const char* name, const PoseErrors& e) {
+  if (e.count == 0) return fmt::format("{:<22} none has a truth\n", name);
+  return fmt::format("{:<22} ATE rmse {:.3f} m, mean {:.3f} m, max {:.3f} m; yaw rmse {:.2f} deg, max {:.2f} deg ({} poses)\n", name, e.rmse_m, e.mean_m,
+                     e.max_m, Degrees(e.yaw_rmse_rad), Degrees(e.yaw_max_rad), e.count);
+}
+
+void WriteWalls(const Evaluation& e, std::string& out) {
+  auto write = std::back_inserter(out);
+  fmt::format_to(write, "{:<22} {} found, {} missed, {} unobserved, {} false\n", "deviated walls", e.CountWalls(WallOutcome::kFound),
+                 e.CountWalls(WallOutcome::kMissed), e.CountWalls(WallOutcome::kUnobserved), e.CountWalls(WallOutcome::kFalse));
+  if (e.walls.empty()) return;
+  fmt::format_to(write, "\n{:<24} {:<10} {:>10} {:>20} {:>10} {:>9} {:>9} {:>9}\n", "wall", "outcome", "truth m", "measured m", "error m", "truth deg",
+                 "meas. deg", "error deg");
+  for (const WallResult& w : e.walls) {
+    const bool reported = w.surface.valid(), found = w.outcome == WallOutcome::kFound;
+    const auto number = [](bool show, int digits, double value) { return show ? fmt::format("{:+.{}f}", value, digits) : std::string("-"); };
+    const std::string measured = reported ? fmt::format("{:+.3f} +- {:.3f}", w.measured_translation_m, w.sigma_translation_m) : "-";
+    fmt::format_to(write, "{:<24} {:<10} {:>+10.3f} {:>20} {:>10} {:>+9.2f} {:>9} {:>9}\n", w.guid, WallOutcomeName(w.outcome), w.true_translation_m,
+                   measured, found ? fmt::format("{:.3f}", w.error_translation_m) : "-", w.true_rotation_deg,
+                   number(reported, 2, w.measured_rotation_deg), found ? fmt::format("{:.2f}", w.error_rotation_deg) : "-");
+  }
+}
+
+}  // namespace
+
+std::string EvaluationToText(const Evaluation& e) {
+  std::string out;
+  auto write = std::back_inserter(out);
+  fmt::format_to(write, "{:<22} {}\n", "time to localize", e.time_to_localize_s ? fmt::format("{:.1f} s", *e.time_to_localize_s) : "never");
+  fmt::format_to(write, "{:<22} {} of {} ({:.1f} %)\n", "scans localized", e.localized_scans, e.scans, 100 * e.localized_ratio());
+  fmt::format_to(write, "{:<22} {}\n", "wrong fixes",
+                 e.wrong_fixes == 0 ? "none" : fmt::format("{} scans, the first at {:.3f} s", e.wrong_fixes, *e.first_wrong_fix_s));
+  out += PoseLine("poses as reported", e.online);
+  out += PoseLine("poses smoothed", e.smoothed);
+  if (e.has_walls) {
+    WriteWalls(e, out);
+  } else {
+    fmt::format_to(write, "{:<22} the recording has no truth.json\n", "deviated walls");
+  }
+  return out;
+}
+
+std::string EvaluationToJson(const Evaluation& e) {
+  Json out;
+  out["version"] = 1;
+  out["scans"] = e.scans;
+  out["localized_scans"] = e.localized_scans;
+  out["localized_ratio"] = e.localized_ratio();
+  out["time_to_localize_s"] = e.time_to_localize_s ? Json(*e.time_to_localize_s) : Json(nullptr);
+  out["wrong_fixes"] = e.wrong_fixes;
+  out["first_wrong_fix_s"] = e.first_wrong_fix_s ? Json(*e.first_wrong_fix_s) : Json(nullptr);
+  out["ate_rmse_m"] = e.online.count > 0 ? Json(e.online.rmse_m) : Json(nullptr);
+  out["yaw_rmse_deg"] = e.online.count > 0 ? Json(Degrees(e.online.yaw_rmse_rad)) : Json(nullptr);
+  out["walls_found"] = e.CountWalls(WallOutcome::kFound);
+  out["walls_missed"] = e.CountWalls(WallOutcome::kMissed);
+  out["walls_unobserved"] = e.CountWalls(WallOutcome::kUnobserved);
+  out["walls_false"] = e.CountWalls(WallOutcome::kFalse);
+  out["max_error_translation_m"] = e.max_translation_error_m();
+  out["max_error_rotation_deg"] = e.max_rotation_error_deg();
+  out["online"] = ErrorsToJson(e.online);
+  out["smoothed"] = ErrorsToJson(e.smoothed);
+  out["walls"] = Json::array();
+  for (const WallResult& w : e.walls) out["walls"].push_back(WallToJson(w));
+  return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace plumb::tools

@@ -1,0 +1,81 @@
+#include "tools/evaluate/truth.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "schema/files.h"
+
+namespace plumb::tools {
+namespace {
+
+using Json = nlohmann::json;
+
+bool IsOff(double translation_m, double rotation_deg) { return std::abs(translation_m) > 1e-6 || std::abs(rotation_deg) > 1e-6; }
+
+WallTruth ParseWall(const Json& json) {
+  WallTruth wall;
+  json.at("wall_guid").get_to(wall.guid);
+  json.at("translation_m").get_to(wall.translation_m);
+  json.at("rotation_deg").get_to(wall.rotation_deg);
+  for (const Json& s : json.at("surfaces")) {
+    wall.surfaces[SurfaceId(s.at("id").get<uint32_t>())] = {s.at("translation_m").get<double>(), s.at("rotation_deg").get<double>()};
+  }
+  return wall;
+}
+
+}  // namespace
+
+bool WallTruth::deviates() const {
+  return IsOff(translation_m, rotation_deg) || std::any_of(surfaces.begin(), surfaces.end(), [](const auto& entry) {
+           return IsOff(entry.second.translation_m, entry.second.rotation_deg);
+         });
+}
+
+Expected<Truth> ParseTruth(const std::string& json, const std::string& source) {
+  try {
+    const Json root = Json::parse(json);
+    if (root.at("version") != 1) return Fail(ErrorCode::kNotARecording, fmt::format("`{}` has another version than 1", source));
+    Truth truth;
+    truth.has_walls = true;
+    for (const Json& wall : root.at("walls")) truth.walls.push_back(ParseWall(wall));
+    const Json points = root.value("surface_points", Json::object());
+    for (const auto& [key, count] : points.items()) {
+      uint32_t id = 0;
+      const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), id);
+      if (error != std::errc() || end != key.data() + key.size()) {
+        return Fail(ErrorCode::kNotARecording, fmt::format("`{}`: `surface_points` has the key `{}`; keys are surface ids", source, key));
+      }
+      truth.surface_points[SurfaceId(id)] = count.get<double>();
+    }
+    return truth;
+  } catch (const Json::exception& e) {
+    return Fail(ErrorCode::kNotARecording, fmt::format("`{}` is no truth file: {}", source, e.what()));
+  }
+}
+
+Expected<Truth> ReadTruth(const std::string& recording_folder) {
+  const std::filesystem::path folder(recording_folder);
+  const std::string tum = (folder / "truth.tum").string(), json = (folder / "truth.json").string();
+  Truth truth;
+  if (std::filesystem::exists(json)) {
+    const auto text = ReadFileText(json);
+    if (!text) return tl::unexpected(text.error());
+    auto parsed = ParseTruth(*text, json);
+    if (!parsed) return parsed;
+    truth = std::move(*parsed);
+  }
+  if (!std::filesystem::exists(tum)) {
+    return Fail(ErrorCode::kNotARecording, fmt::format("`{}` has no truth.tum; without it there is nothing to compare with", recording_folder));
+  }
+  auto trajectory = runtime::ReadTum(tum);
+  if (!trajectory) return tl::unexpected(trajectory.error());
+  truth.trajectory = std::move(*trajectory);
+  return truth;
+}
+
+}  // namespace plumb::tools

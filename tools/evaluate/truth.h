@@ -1,0 +1,40 @@
+// truth.json and truth.tum of a recording folder: what the building and the drive really were.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "runtime/sources/recording.h"
+#include "schema/error.h"
+#include "schema/ids.h"
+
+namespace plumb::tools {
+
+struct SurfaceTruth {
+  double translation_m = 0;  // at the planned surface's midpoint, + along its planned normal
+  double rotation_deg = 0;   // about +z, + counter-clockwise
+};
+
+// One physical wall that was built off its plan.
+struct WallTruth {
+  std::string guid;
+  double translation_m = 0, rotation_deg = 0;
+  std::map<SurfaceId, SurfaceTruth> surfaces;
+  [[nodiscard]] bool deviates() const;
+};
+
+struct Truth {
+  runtime::Trajectory trajectory;             // sensor in the plan frame
+  std::vector<WallTruth> walls;               // in the file's order; walls that are not listed are as planned
+  std::map<SurfaceId, double> surface_points; // returns that hit each surface; empty: not recorded
+  bool has_walls = false;                     // false: the recording has no truth.json
+};
+
+// Errors: kNotARecording, with the key.
+[[nodiscard]] Expected<Truth> ParseTruth(const std::string& json, const std::string& source);
+
+// truth.tum must exist, truth.json may. Errors: kNotARecording, kBadTrajectory.
+[[nodiscard]] Expected<Truth> ReadTruth(const std::string& recording_folder);
+
+}  // namespace plumb::tools

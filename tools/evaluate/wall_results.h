@@ -1,0 +1,35 @@
+// Which built walls were found to deviate, which were missed, which were accused wrongly.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "tools/evaluate/truth.h"
+#include "tools/run/run_folder.h"
+
+namespace plumb::tools {
+
+enum class WallOutcome : uint8_t {
+  kFound,       // deviates, and a surface of it is reported `deviated` (or `missing`)
+  kMissed,      // deviates and was observed, but is reported as planned
+  kUnobserved,  // deviates, but the sensor saw too little of it
+  kFalse,       // reported as deviating, but stands as planned
+};
+[[nodiscard]] const char* WallOutcomeName(WallOutcome outcome);  // found | missed | unobserved | false
+
+struct WallResult {
+  std::string guid;
+  WallOutcome outcome = WallOutcome::kMissed;
+  SurfaceId surface;  // found: the reported surface with the largest error; false: with the largest report; else none
+  double true_translation_m = 0, true_rotation_deg = 0;          // of that surface, or of the wall where there is none
+  double measured_translation_m = 0, measured_rotation_deg = 0;  // found and false only
+  double sigma_translation_m = 0;
+  double error_translation_m = 0, error_rotation_deg = 0;        // absolute; found only
+};
+
+// One entry per wall that deviates or is reported to, by outcome, then by guid. Walls are told apart by wall_guid. A wall counts as observed
+// when at least `min_points` returns hit one of its surfaces (truth.json), or where that was not recorded, when the run says so.
+[[nodiscard]] std::vector<WallResult> CompareWalls(const Truth& truth, const Deviations& reported, double min_points);
+
+}  // namespace plumb::tools

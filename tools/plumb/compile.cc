@@ -1,0 +1,60 @@
+#include "compiler/compile.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "compiler/diagnostics/diagnostic.h"
+#include "schema/agraph_writer.h"
+#include "schema/files.h"
+#include "tools/plumb/command.h"
+
+namespace plumb::tools {
+namespace {
+
+struct CompileFlags {
+  std::string plan, output, diagnostics_json;
+  size_t max_per_kind = 3;
+  compiler::CompileOptions options;
+};
+
+std::string Summary(const AGraph& g, const std::string& output) {
+  return fmt::format("{}: {} storeys, {} walls, {} surfaces, {} rooms, {} doorways, {} windows, {} triangles", output, g.storeys.size(), g.walls.size(),
+                     g.surfaces.size(), g.rooms.size(), g.doorways.size(), g.windows.size(), g.mesh.triangles.size());
+}
+
+Status RunCompile(const CompileFlags& flags, Session& session) {
+  if (const std::string wrong = flags.options.Check(); !wrong.empty()) return session.Fail({ErrorCode::kBadOption, wrong});
+  const compiler::CompileResult result = compiler::Compile(flags.plan, flags.options);
+  const auto& diagnostics = result.diagnostics.all();
+  const std::string text = compiler::DiagnosticsToText(diagnostics, flags.plan, flags.max_per_kind);
+  if (!text.empty()) session.console.Info(text.substr(0, text.size() - 1));
+  if (!flags.diagnostics_json.empty()) {
+    const auto written = WriteFileAtomically(flags.diagnostics_json, std::string_view(compiler::DiagnosticsToJson(diagnostics, flags.plan)));
+    if (!written) return session.Fail(written.error());
+  }
+  if (!result.graph) return session.Fail({ErrorCode::kPlanUnsuitable, fmt::format("`{}` gives no A-Graph; see above", flags.plan)});
+  if (const auto written = WriteAGraphFile(*result.graph, flags.output); !written) return session.Fail(written.error());
+  session.console.Info(Summary(*result.graph, flags.output));
+  return result.diagnostics.has_errors() ? Status::kFindings : Status::kFine;
+}
+
+}  // namespace
+
+void AddCompile(CLI::App& app, Session& session) {
+  auto flags = std::make_shared<CompileFlags>();
+  CLI::App* sub = AddSubcommand(app, session, "compile", "Turn a floor plan into an A-Graph: rooms, wall surfaces, doorways, triangles",
+                                "  plumb compile house.ifc -o house.agraph\n"
+                                "  plumb compile house.ifc.gz -o house.agraph --diagnostics-json house.json");
+  sub->add_option("PLAN", flags->plan, "the plan: IFC as a STEP file, gzipped or not")->required();
+  sub->add_option("-o,--output", flags->output, "the A-Graph to write")->required()->type_name("FILE.agraph");
+  sub->add_option("--diagnostics-json", flags->diagnostics_json, "write what the compiler has to say about the plan as JSON")->type_name("FILE");
+  sub->add_option("--max-per-kind", flags->max_per_kind, "print at most this many diagnostics of a kind");
+  sub->add_option("--section-height", flags->options.section_height_m, "height above the storey's zero at which walls are cut, m");
+  sub->add_option("--snap-radius", flags->options.snap_radius_m, "corners of walls closer than this become one, m");
+  sub->add_option("--min-room-area", flags->options.min_room_area_m2, "smaller faces between walls are shafts, not rooms, m2");
+  sub->callback([flags, &session] { session.status = RunCompile(*flags, session); });
+}
+
+}  // namespace plumb::tools

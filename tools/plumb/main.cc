@@ -1,0 +1,114 @@
+// plumb: compiles building plans, localizes a robot in them and measures how the building deviates from its plan.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <exception>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "tools/plumb/command.h"
+#include "tools/plumb/config.h"
+
+namespace plumb::tools {
+
+namespace {
+
+// Thrown by --print-config, like CLI11's own --help: a request, not an error.
+struct PrintConfigRequest {
+  const CLI::App* subcommand = nullptr;
+};
+
+// Adds what CLI11 does not say: the flag that may have been meant.
+std::string WithHint(const CLI::App& app, const CLI::ParseError& error, const std::vector<std::string>& arguments) {
+  std::string message = error.what();
+  const auto used = app.get_subcommands();
+  if (used.empty()) {
+    const std::string near = NearestName(arguments.front(), SubcommandNames(app));
+    return near.empty() ? message : fmt::format("there is no subcommand `{}`; did you mean `{}`?", arguments.front(), near);
+  }
+  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return message;
+  const std::vector<std::string> names = FlagNames(*used.front());
+  for (const std::string& argument : arguments) {
+    if (!argument.starts_with("--")) continue;
+    const std::string name = argument.substr(2, argument.find('=') - 2);
+    if (std::find(names.begin(), names.end(), name) != names.end() || message.find(argument) == std::string::npos) continue;
+    const std::string near = NearestName(name, names);
+    if (!near.empty()) message += fmt::format("; did you mean `--{}`?", near);
+  }
+  return message;
+}
+
+// Subcommands whose library this build does without are not there.
+void AddSubcommands(CLI::App& app, Session& session) {
+#ifdef PLUMB_WITH_COMPILER
+  AddCompile(app, session);
+#endif
+  AddValidate(app, session);
+  AddInspect(app, session);
+#ifdef PLUMB_WITH_SIMULATE
+  AddSimulate(app, session);
+#endif
+#ifdef PLUMB_WITH_LOCALIZE
+  AddLocalize(app, session);
+#endif
+  AddEvaluate(app, session);
+  AddReport(app, session);
+  AddDoctor(app, session);
+#ifdef PLUMB_WITH_COMPILER
+  AddExplain(app, session);
+#endif
+}
+
+int Parse(CLI::App& app, Session& session, std::vector<std::string> arguments) {
+  if (arguments.empty()) arguments.emplace_back("--help");
+  try {
+    const auto expanded = ExpandConfig(app, arguments);
+    if (!expanded) return static_cast<int>(session.Fail(expanded.error()));
+    std::vector<std::string> reversed(expanded->rbegin(), expanded->rend());  // as CLI11 wants them
+    app.parse(reversed);
+    return static_cast<int>(session.status);
+  } catch (const PrintConfigRequest& request) {
+    session.console.Print(ConfigToToml(*request.subcommand));
+    return 0;
+  } catch (const CLI::ParseError& e) {
+    if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
+    session.console.Error(WithHint(app, e, arguments));
+    const auto used = app.get_subcommands();
+    fmt::print(stderr, "Run `plumb {}--help` for the options.\n", used.empty() ? "" : used.front()->get_name() + " ");
+    return static_cast<int>(Status::kBadInput);
+  }
+}
+
+}  // namespace
+
+CLI::App* AddSubcommand(CLI::App& app, Session& session, const std::string& name, const std::string& description, const std::string& examples) {
+  CLI::App* sub = app.add_subcommand(name, description);
+  sub->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)->always_capture_default();
+  sub->footer("Examples:\n" + examples + "\nExit status: 0 fine, 1 findings, 2 bad input or usage, 3 internal error.");
+  sub->add_option_function<std::string>("--config", [](const std::string&) {}, "TOML file with options under the names of these flags")
+      ->type_name("FILE");
+  sub->add_flag_callback("--print-config", [sub] { throw PrintConfigRequest{sub}; }, "print the options in force as TOML, and stop");
+  sub->add_flag_function("-q,--quiet", [&session](int64_t count) { session.console.set_quiet(count > 0); }, "say nothing but results and errors");
+  return sub;
+}
+
+}  // namespace plumb::tools
+
+int main(int argc, char** argv) {
+  plumb::tools::Session session;
+  try {
+    CLI::App app("Plumb tells how far a building stands from its plan, and where the robot stands in it.", "plumb");
+    app.set_version_flag("--version", "plumb " PLUMB_VERSION);
+    app.require_subcommand(1);
+    app.footer("Run `plumb SUBCOMMAND --help` for options and examples.");
+    plumb::tools::AddSubcommands(app, session);
+    return plumb::tools::Parse(app, session, {argv + 1, argv + argc});
+  } catch (const std::bad_alloc&) {
+    session.console.Error("out of memory");
+  } catch (const std::exception& e) {
+    session.console.Error(fmt::format("internal: {}", e.what()));
+  }
+  return static_cast<int>(plumb::tools::Status::kInternal);
+}

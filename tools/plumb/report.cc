@@ -1,0 +1,46 @@
+#include "tools/report/report.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "schema/agraph_reader.h"
+#include "schema/files.h"
+#include "tools/plumb/command.h"
+
+namespace plumb::tools {
+namespace {
+
+struct ReportFlags {
+  std::string run, plan, output;
+};
+
+Status RunReport(const ReportFlags& flags, Session& session) {
+  const auto info = ReadRunInfo(flags.run);
+  if (!info) return session.Fail(info.error());
+  const auto run = ReadRun(flags.run);
+  if (!run) return session.Fail(run.error());
+  const std::string plan_path = flags.plan.empty() ? info->plan_path : flags.plan;
+  const auto plan = ReadAGraphFile(plan_path);
+  if (!plan) return session.Fail(plan.error());
+  const auto html = RunToHtml(*plan, *run, *info);
+  if (!html) return session.Fail(html.error());
+  if (const auto written = WriteFileAtomically(flags.output, std::string_view(*html)); !written) return session.Fail(written.error());
+  session.console.Info(fmt::format("{}: open it in a browser", flags.output));
+  return Status::kFine;
+}
+
+}  // namespace
+
+void AddReport(CLI::App& app, Session& session) {
+  auto flags = std::make_shared<ReportFlags>();
+  CLI::App* sub = AddSubcommand(app, session, "report", "Draw a run: one HTML page with the plan, the deviations and the trajectory",
+                                "  plumb report run/ -o run/report.html");
+  sub->add_option("RUN", flags->run, "folder written by `plumb localize`")->required();
+  sub->add_option("-o,--output", flags->output, "the page to write")->required()->type_name("FILE.html");
+  sub->add_option("--plan", flags->plan, "the plan, where it is no longer where run.json says")->type_name("FILE.agraph");
+  sub->callback([flags, &session] { session.status = RunReport(*flags, session); });
+}
+
+}  // namespace plumb::tools

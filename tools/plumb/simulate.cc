@@ -1,0 +1,87 @@
+#include "tools/simulate/simulate.h"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "schema/agraph_reader.h"
+#include "tools/plumb/command.h"
+#include "tools/simulate/sensor.h"
+
+namespace plumb::tools {
+namespace {
+
+struct SimulateFlags {
+  std::string plan, output;
+  std::string translation = "0.05:0.35", rotation_deg = "0:5";
+  SimulateOptions options;
+};
+
+// "0.05:0.35" or "0.2", which stands for "0.2:0.2".
+std::optional<std::pair<double, double>> ParseRange(const std::string& text) {
+  double lo = 0, hi = 0;
+  const size_t colon = text.find(':');
+  if (!CLI::detail::lexical_cast(text.substr(0, colon), lo)) return std::nullopt;
+  if (colon == std::string::npos) return std::pair(lo, lo);
+  if (!CLI::detail::lexical_cast(text.substr(colon + 1), hi)) return std::nullopt;
+  return std::pair(lo, hi);
+}
+
+Expected<SimulateOptions> OptionsOf(const SimulateFlags& flags) {
+  SimulateOptions options = flags.options;
+  const auto translation = ParseRange(flags.translation), rotation = ParseRange(flags.rotation_deg);
+  if (!translation) return Fail(ErrorCode::kBadOption, fmt::format("--translation {}; must be LEAST:MOST in metres", flags.translation));
+  if (!rotation) return Fail(ErrorCode::kBadOption, fmt::format("--rotation {}; must be LEAST:MOST in degrees", flags.rotation_deg));
+  constexpr double kRadPerDeg = std::numbers::pi / 180;
+  std::tie(options.min_translation_m, options.max_translation_m) = *translation;
+  options.min_rotation_rad = rotation->first * kRadPerDeg;
+  options.max_rotation_rad = rotation->second * kRadPerDeg;
+  if (std::string wrong = options.Check(); !wrong.empty()) return Fail(ErrorCode::kBadOption, std::move(wrong));
+  return options;
+}
+
+Status RunSimulate(const SimulateFlags& flags, Session& session) {
+  const auto options = OptionsOf(flags);
+  if (!options) return session.Fail(options.error());
+  const auto plan = ReadAGraphFile(flags.plan);
+  if (!plan) return session.Fail(plan.error());
+  const auto done = Simulate(*plan, *options, flags.output, [&](size_t i, size_t n) { session.console.Progress("simulating", i, n); });
+  if (!done) return session.Fail(done.error());
+  session.console.Info(fmt::format("{}: {} scans in {:.1f} s over {:.1f} m, {} of {} rooms visited, {} walls off their plan", flags.output, done->scans,
+                                   done->duration_s, done->path_m, done->visited.size(), done->visited.size() + done->not_visited.size(),
+                                   done->walls.size()));
+  return Status::kFine;
+}
+
+}  // namespace
+
+void AddSimulate(CLI::App& app, Session& session) {
+  auto flags = std::make_shared<SimulateFlags>();
+  SimulateOptions& o = flags->options;
+  CLI::App* sub = AddSubcommand(app, session, "simulate", "Build a house off its plan, drive a LiDAR through it and record",
+                                "  plumb simulate house.agraph --seed 1 --deviate 3 --translation 0.05:0.35 --rotation 0:5 --sensor vlp16 -o rec/\n"
+                                "  plumb simulate house.agraph --deviate 0 --duration 60 --max-duration 60 -o short/");
+  std::string sensors;
+  for (const std::string& name : SensorNames()) sensors += (sensors.empty() ? "" : ", ") + name;
+  sub->add_option("FILE.agraph", flags->plan, "the plan")->required();
+  sub->add_option("-o,--output", flags->output, "the recording folder to write")->required()->type_name("REC");
+  sub->add_option("--seed", o.seed, "of all random numbers; same seed, same recording");
+  sub->add_option("--deviate", o.deviate, "number of walls that are built off the plan");
+  sub->add_option("--translation", flags->translation, "least and largest displacement of such a wall, m")->type_name("LEAST:MOST");
+  sub->add_option("--rotation", flags->rotation_deg, "least and largest turn of such a wall, deg")->type_name("LEAST:MOST");
+  sub->add_option("--sensor", o.sensor, "one of " + sensors);
+  sub->add_option("--storey", o.storey, "storey to drive on, counted from 0; -1: the one with most rooms");
+  sub->add_option("--speed", o.speed_m_s, "of the robot, m/s");
+  sub->add_option("--sensor-height", o.sensor_height_m, "above the floor, m");
+  sub->add_option("--duration", o.min_duration_s, "drive at least this long, s");
+  sub->add_option("--max-duration", o.max_duration_s, "stop after this long wherever the robot is, s");
+  sub->add_option("--glass-transmission", o.glass_transmission, "chance that a ray passes a pane");
+  sub->add_option("--clutter", o.clutter, "boxes that stand about and are not in the plan");
+  sub->callback([flags, &session] { session.status = RunSimulate(*flags, session); });
+}
+
+}  // namespace plumb::tools

@@ -1,0 +1,188 @@
+#include "tools/report/report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <iterator>
+#include <set>
+
+#include "tools/report/deviation_overlay.h"
+#include "tools/report/floor_plan_svg.h"
+#include "tools/report/report_page.h"
+#include "tools/report/svg.h"
+#include "tools/report/trajectory_overlay.h"
+
+namespace plumb::tools {
+namespace {
+
+const char* StatusText(const std::string& status) {
+  if (status == "as_planned") return "as planned";
+  if (status == "unobserved") return "not observed";
+  return status == "missing" ? "missing" : "deviated";
+}
+
+std::string Tile(const std::string& value, const std::string& label) {
+  return fmt::format("<div class=\"tile\"><b>{}</b><span>{}</span></div>\n", value, label);
+}
+
+std::string Tiles(const RunInfo& info, const std::vector<WallRow>& rows) {
+  size_t observed = 0, deviated = 0;
+  for (const WallRow& row : rows) {
+    observed += row.surface->status != "unobserved";
+    deviated += row.number > 0;
+  }
+  std::string out = "<div class=\"tiles\">\n";
+  out += Tile(info.time_to_localize_s ? fmt::format("{:.1f} s", *info.time_to_localize_s) : "never", "until localized");
+  const double ratio = info.scans == 0 ? 0 : 100.0 * static_cast<double>(info.localized_scans) / static_cast<double>(info.scans);
+  out += Tile(fmt::format("{:.0f} %", ratio), fmt::format("of {} scans localized", info.scans));
+  out += Tile(fmt::format("{} of {}", deviated, observed), "observed walls deviate");
+  out += Tile(deviated > 0 ? Signed(100 * rows.front().surface->translation_m, 1) + " cm" : "none", "largest deviation");
+  out += Tile(Signed(100 * info.range_bias_m, 1) + " cm", "range bias of the sensor");
+  out += Tile(fmt::format("{:.0f} s", info.duration_s), fmt::format("of recording, {:.0f} ms per scan", info.ms_per_scan));
+  return out + "</div>\n";
+}
+
+std::string Notes(const RunInfo& info, const Deviations& deviations) {
+  std::string out;
+  if (!info.time_to_localize_s) {
+    out += fmt::format("<p class=\"note bad\">The robot was not localized in this plan{}{}. No deviations can be stated.</p>\n",
+                       info.last_reason.empty() ? "" : ": ", EscapeXml(info.last_reason));
+  }
+  if (!deviations.gauge.empty()) {
+    out += fmt::format("<p class=\"note\">Deviations are relative to each other; what counts as standing still: {}.</p>\n", EscapeXml(deviations.gauge));
+  }
+  return out;
+}
+
+std::string Figure(const AGraph& plan, StoreyId storey, const Run& run, const std::vector<WallRow>& rows, double limit_m) {
+  const Sheet sheet = SheetOf(plan, storey);
+  return fmt::format(
+      "<figure><figcaption>{}</figcaption>\n<svg class=\"plan\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"floor plan\">\n"
+      "<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n{}<g class=\"layer-surfaces\">\n{}</g>\n<g class=\"layer-way\">\n{}</g>\n"
+      "<g class=\"layer-rooms\">\n{}</g>\n<g class=\"layer-surfaces\">\n{}</g>\n{}</svg></figure>\n",
+      EscapeXml(plan.storeys[storey.index()].name), Decimal(sheet.width()), Decimal(sheet.height()), DrawFloorPlan(plan, storey, sheet),
+      DrawSurfaces(plan, storey, run.deviations, limit_m, sheet), DrawTrajectory(plan, storey, run, sheet), DrawRoomLabels(plan, storey, sheet),
+      DrawWallNumbers(plan, storey, rows, sheet), DrawScaleBar(sheet));
+}
+
+// Storeys that the robot saw something of; all of them where it saw nothing.
+std::set<StoreyId> SeenStoreys(const AGraph& plan, const Run& run) {
+  std::set<StoreyId> seen;
+  for (const SurfaceEntry& s : run.deviations.surfaces) {
+    if (s.status != "unobserved") seen.insert(plan.surfaces[s.id.index()].storey);
+  }
+  for (const auto& pose : run.smoothed) seen.insert(StoreyAt(plan, pose.T.translation().z()));
+  for (size_t i = 0; seen.empty() && i < plan.storeys.size(); ++i) seen.insert(StoreyId(i));
+  return seen;
+}
+
+std::string Figures(const AGraph& plan, const Run& run, const std::vector<WallRow>& rows) {
+  const double limit_m = ColorLimit(run.deviations);
+  std::string out = LegendHtml(limit_m), others;
+  const std::set<StoreyId> seen = SeenStoreys(plan, run);
+  for (size_t i = 0; i < plan.storeys.size(); ++i) {
+    const StoreyId storey(i);
+    const bool has_walls = std::any_of(plan.walls.begin(), plan.walls.end(), [&](const Wall& w) { return w.storey == storey; });
+    if (!has_walls) continue;
+    (seen.contains(storey) ? out : others) += Figure(plan, storey, run, rows, limit_m);
+  }
+  if (!others.empty()) out += fmt::format("<details><summary>Storeys that were not visited</summary>\n{}</details>\n", others);
+  return out;
+}
+
+// "into Kitchen", "away from Kitchen": what the sign of the displacement means on the spot.
+std::string Sense(const AGraph& plan, const SurfaceEntry& s) {
+  const RoomId room = plan.surfaces[s.id.index()].room;
+  const std::string side = room.valid() ? EscapeXml(plan.rooms[room.index()].name) : std::string("the outside");
+  return fmt::format("{} {}", s.translation_m >= 0 ? "into" : "away from", side);
+}
+
+std::string WallRowHtml(const AGraph& plan, const WallRow& row) {
+  const Wall& wall = plan.walls[row.wall.index()];
+  const SurfaceEntry& s = *row.surface;
+  const std::string storey = wall.storey.valid() ? EscapeXml(plan.storeys[wall.storey.index()].name) : "";
+  const std::string chip =
+      row.number > 0 ? fmt::format("<span class=\"chip\" style=\"background:{}\">{}</span>", DeviationColor(s.translation_m, 0.01), row.number) : "";
+  return fmt::format(
+      "<tr{}><td class=\"t\">{}</td><td class=\"t\">{}<small>{}</small></td><td class=\"t\">{}</td><td class=\"t\">{}</td>"
+      "<td>{} &plusmn; {:.1f}<small>{}</small></td><td>{} &plusmn; {:.2f}</td><td>{:.3f}</td><td>{:.1f}</td><td>{:.0f}</td></tr>\n",
+      row.number > 0 ? " class=\"off\"" : "", chip, EscapeXml(wall.name), EscapeXml(s.wall_guid), storey, StatusText(s.status),
+      Signed(100 * s.translation_m, 1), 100 * s.sigma_translation_m, row.number > 0 ? Sense(plan, s) : "", Signed(s.rotation_deg, 2), s.sigma_rotation_deg, s.p_deviated, s.observed_m2, s.points);
+}
+
+std::string WallTable(const AGraph& plan, const std::vector<WallRow>& rows) {
+  std::string body;
+  size_t unobserved = 0;
+  for (const WallRow& row : rows) {
+    if (row.surface->status == "unobserved") {
+      ++unobserved;
+    } else {
+      body += WallRowHtml(plan, row);
+    }
+  }
+  return fmt::format(
+      "<h2>Walls</h2>\n<div class=\"scroll\"><table><thead><tr><th class=\"t\"></th><th class=\"t\">wall</th><th class=\"t\">storey</th><th class=\"t\">"
+      "verdict</th><th>displacement &plusmn; &sigma;, cm</th><th>turn &plusmn; &sigma;, &deg;</th><th>P(deviated)</th><th>seen, m&sup2;</th><th>points</th>"
+      "</tr></thead><tbody>\n{}</tbody></table></div>\n<p class=\"note\">{} further walls were not observed well enough to judge.</p>\n",
+      body, unobserved);
+}
+
+std::string RoomTable(const AGraph& plan, const Deviations& deviations) {
+  std::string body;
+  for (const RoomEntry& r : deviations.rooms) {
+    if (r.status == "unobserved") continue;
+    const Room& room = plan.rooms[r.id.index()];
+    fmt::format_to(std::back_inserter(body),
+                   "<tr{}><td class=\"t\">{}</td><td class=\"t\">{}</td><td class=\"t\">{}</td><td>{:.2f}</td><td>{}, {}</td><td>{:.1f}</td>"
+                   "<td>{}</td></tr>\n",
+                   r.status == "as_planned" ? "" : " class=\"off\"", EscapeXml(room.name),
+                   room.storey.valid() ? EscapeXml(plan.storeys[room.storey.index()].name) : "", StatusText(r.status), room.area_m2,
+                   Signed(100 * r.translation_m.x(), 1), Signed(100 * r.translation_m.y(), 1), 100 * r.sigma_m, Signed(r.rotation_deg, 2));
+  }
+  if (body.empty()) return {};
+  return fmt::format(
+      "<h2>Rooms</h2>\n<div class=\"scroll\"><table><thead><tr><th class=\"t\">room</th><th class=\"t\">storey</th><th class=\"t\">verdict</th>"
+      "<th>planned area, m&sup2;</th><th>moved x, y, cm</th><th>&sigma;, cm</th><th>turn, &deg;</th></tr></thead><tbody>\n{}</tbody></table></div>\n",
+      body);
+}
+
+std::string Footer(const RunInfo& info) {
+  std::string options;
+  for (const Option& o : info.options) fmt::format_to(std::back_inserter(options), "{}{} = {}", options.empty() ? "" : ", ", o.name, o.value);
+  return fmt::format(
+      "<footer><dl><dt>plan</dt><dd>{}</dd><dt>drawn in</dt><dd>{}</dd><dt>SHA-256 of the drawing</dt><dd>{}</dd><dt>recording</dt><dd>{}</dd>"
+      "<dt>options</dt><dd>{}</dd><dt>made by</dt><dd>plumb {}</dd></dl></footer>\n",
+      EscapeXml(info.plan_path), EscapeXml(info.plan_source), EscapeXml(info.plan_source_sha256), EscapeXml(info.recording_path), EscapeXml(options),
+      EscapeXml(info.plumb_version));
+}
+
+std::string CheckIds(const AGraph& plan, const Deviations& deviations) {
+  for (const SurfaceEntry& s : deviations.surfaces) {
+    if (s.id.index() >= plan.surfaces.size()) return fmt::format("surface {}", s.id.value);
+  }
+  for (const RoomEntry& r : deviations.rooms) {
+    if (r.id.index() >= plan.rooms.size()) return fmt::format("room {}", r.id.value);
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<std::string> RunToHtml(const AGraph& plan, const Run& run, const RunInfo& info) {
+  if (const std::string id = CheckIds(plan, run.deviations); !id.empty()) {
+    return Fail(ErrorCode::kBadRunFolder, fmt::format("the run's deviations name {}, which the plan does not have: it was made with another plan", id));
+  }
+  const std::vector<WallRow> rows = WallRows(plan, run.deviations);
+  const std::string title = EscapeXml(std::filesystem::path(info.plan_source).filename().string());
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">\n"
+      "<title>{0} as built</title>\n<style>\n{1}{2}{3}{4}</style></head>\n<body>\n<h1>{0}: as built against the plan</h1>\n"
+      "<p class=\"sub\">where the robot was, and how far each wall stands from where the plan has it</p>\n{5}{6}<h2>Plan</h2>\n{7}{8}{9}{10}"
+      "<script>\n{11}</script>\n</body></html>\n",
+      title, FloorPlanStyle(), DeviationStyle(), TrajectoryStyle(), PageStyle(), Tiles(info, rows), Notes(info, run.deviations),
+      Figures(plan, run, rows), WallTable(plan, rows), RoomTable(plan, run.deviations), Footer(info), PageScript());
+}
+
+}  // namespace plumb::tools

@@ -1,0 +1,71 @@
+#include "tools/run/run_info.h"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "schema/files.h"
+
+namespace plumb::tools {
+
+using Json = nlohmann::ordered_json;
+
+std::string RunInfoToJson(const RunInfo& info) {
+  Json out;
+  out["version"] = 1;
+  out["plumb"] = info.plumb_version;
+  out["plan"] = {{"path", info.plan_path}, {"source", info.plan_source}, {"source_sha256", info.plan_source_sha256}};
+  out["recording"] = info.recording_path;
+  out["options"] = Json::object();
+  for (const Option& o : info.options) out["options"][o.name] = o.value;
+  Json summary;
+  summary["scans"] = info.scans;
+  summary["localized_scans"] = info.localized_scans;
+  summary["time_to_localize_s"] = info.time_to_localize_s ? Json(*info.time_to_localize_s) : Json(nullptr);
+  summary["duration_s"] = info.duration_s;
+  summary["keyframes"] = info.keyframes;
+  summary["deviated_walls"] = info.deviated_walls;
+  summary["range_bias_m"] = info.range_bias_m;
+  summary["ms_per_scan"] = info.ms_per_scan;
+  summary["last_reason"] = info.last_reason;
+  out["summary"] = std::move(summary);
+  return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+Expected<RunInfo> ParseRunInfo(const std::string& json, const std::string& source) {
+  try {
+    const Json root = Json::parse(json);
+    if (root.at("version") != 1) return Fail(ErrorCode::kBadRunFolder, fmt::format("`{}` has another version than 1", source));
+    RunInfo info;
+    root.at("plumb").get_to(info.plumb_version);
+    const Json& plan = root.at("plan");
+    plan.at("path").get_to(info.plan_path);
+    plan.at("source").get_to(info.plan_source);
+    plan.at("source_sha256").get_to(info.plan_source_sha256);
+    root.at("recording").get_to(info.recording_path);
+    for (const auto& [name, value] : root.at("options").items()) info.options.push_back({name, value.get<std::string>()});
+    const Json& summary = root.at("summary");
+    summary.at("scans").get_to(info.scans);
+    summary.at("localized_scans").get_to(info.localized_scans);
+    if (!summary.at("time_to_localize_s").is_null()) info.time_to_localize_s = summary.at("time_to_localize_s").get<double>();
+    summary.at("duration_s").get_to(info.duration_s);
+    summary.at("keyframes").get_to(info.keyframes);
+    summary.at("deviated_walls").get_to(info.deviated_walls);
+    summary.at("range_bias_m").get_to(info.range_bias_m);
+    summary.at("ms_per_scan").get_to(info.ms_per_scan);
+    summary.at("last_reason").get_to(info.last_reason);
+    return info;
+  } catch (const Json::exception& e) {
+    return Fail(ErrorCode::kBadRunFolder, fmt::format("`{}` is no run.json: {}", source, e.what()));
+  }
+}
+
+Expected<RunInfo> ReadRunInfo(const std::string& run_folder) {
+  const std::string path = (std::filesystem::path(run_folder) / "run.json").string();
+  const auto text = ReadFileText(path);
+  if (!text) return Fail(ErrorCode::kBadRunFolder, fmt::format("`{}` is no run folder: {}", run_folder, text.error().message));
+  return ParseRunInfo(*text, path);
+}
+
+}  // namespace plumb::tools

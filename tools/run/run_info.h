@@ -1,0 +1,38 @@
+// run.json: which plan, which recording, which options and versions a run was made with, and what came out of it.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "schema/agraph.h"
+#include "schema/error.h"
+
+namespace plumb::tools {
+
+struct RunInfo {
+  std::string plumb_version;
+  std::string plan_path;    // absolute: the .agraph that was localized in
+  std::string plan_source;  // the drawing it was compiled from
+  std::string plan_source_sha256;
+  std::string recording_path;
+  std::vector<Option> options;  // flags of `plumb localize`, as given or by default
+
+  // Summary.
+  size_t scans = 0, localized_scans = 0;
+  std::optional<double> time_to_localize_s;  // from the first scan's stamp to that of the first `localized` verdict
+  double duration_s = 0;                     // from the first scan's stamp to the last one's
+  size_t keyframes = 0;
+  size_t deviated_walls = 0;
+  double range_bias_m = 0;   // estimated common bias of the sensor's ranges
+  double ms_per_scan = 0;    // mean over all stages
+  std::string last_reason;   // why it did not localize; empty if it did
+};
+
+[[nodiscard]] std::string RunInfoToJson(const RunInfo& info);
+// Errors: kBadRunFolder.
+[[nodiscard]] Expected<RunInfo> ParseRunInfo(const std::string& json, const std::string& source);
+[[nodiscard]] Expected<RunInfo> ReadRunInfo(const std::string& run_folder);
+
+}  // namespace plumb::tools

@@ -1,0 +1,74 @@
+#include "tools/simulate/clutter.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "tools/simulate/random.h"
+
+namespace plumb::tools {
+namespace {
+
+constexpr int kTriesPerBox = 10;
+
+struct Box {
+  Rectangle footprint;
+  double z_min_m = 0, z_max_m = 0;
+};
+
+void AddBox(AGraph& house, const Box& box, uint32_t element) {
+  const auto base = static_cast<uint32_t>(house.mesh.vertices.size());
+  for (const double z : {box.z_min_m, box.z_max_m}) {
+    for (const Eigen::Vector2d& c : box.footprint.Corners()) {
+      house.mesh.vertices.push_back((Eigen::Vector3d(c.x(), c.y(), z) - house.origin).cast<float>());
+    }
+  }
+  const auto quad = [&](uint32_t a, uint32_t b, uint32_t c, uint32_t d) {
+    house.mesh.triangles.push_back({base + a, base + b, base + c, element});
+    house.mesh.triangles.push_back({base + a, base + c, base + d, element});
+  };
+  quad(3, 2, 1, 0);
+  quad(4, 5, 6, 7);
+  for (uint32_t i = 0; i < 4; ++i) quad(i, (i + 1) % 4, (i + 1) % 4 + 4, i + 4);
+}
+
+Box DrawBox(const FreeSpace& space, const RoomFloor& floor, Random& random) {
+  const double angle_rad = random.Uniform(0, std::numbers::pi);
+  Box box;
+  box.footprint = {space.Center(space.At(floor.cells[random.Index(floor.cells.size())])),
+                   {std::cos(angle_rad), std::sin(angle_rad)},
+                   random.Uniform(0.15, 0.5),
+                   random.Uniform(0.15, 0.4)};
+  box.z_min_m = space.floor_z_m();
+  box.z_max_m = box.z_min_m + random.Uniform(0.4, 1.8);
+  return box;
+}
+
+}  // namespace
+
+int AddClutter(AsBuilt& built, StoreyId storey, int boxes, uint64_t seed) {
+  Random random(seed, static_cast<uint64_t>(RandomStream::kClutter));
+  int placed = 0;
+  const FreeSpace empty(built.house, storey, built.passages);
+  const Reach before = FindReach(built.house, storey, empty);
+  for (int i = 0; i < boxes * kTriesPerBox && placed < boxes; ++i) {
+    const RoomFloor& floor = before.rooms[random.Index(before.rooms.size())];
+    if (!floor.reachable) continue;
+    const Box box = DrawBox(empty, floor, random);
+    AGraph house = built.house;
+    Element element;
+    element.name = fmt::format("box {}", placed + 1);
+    element.kind = ElementKind::kFurniture;
+    element.storey = storey;
+    house.elements.push_back(element);
+    AddBox(house, box, static_cast<uint32_t>(house.elements.size() - 1));
+    const Reach after = FindReach(house, storey, FreeSpace(house, storey, built.passages));
+    if (after.reachable() < before.reachable() || after.robot_radius_m < before.robot_radius_m) continue;
+    built.house = std::move(house);
+    ++placed;
+  }
+  return placed;
+}
+
+}  // namespace plumb::tools

@@ -1,0 +1,193 @@
+#include "tools/simulate/simulate.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <mutex>
+#include <numbers>
+
+#include "schema/files.h"
+#include "tools/simulate/as_built.h"
+#include "tools/simulate/clutter.h"
+#include "tools/simulate/surface_counter.h"
+#include "tools/simulate/sweep.h"
+#include "tools/simulate/tour.h"
+#include "tools/simulate/truth_json.h"
+#include "tools/simulate/wheel_odometry.h"
+
+namespace plumb::tools {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The one asked for, else the one with most rooms; none if there is no such storey with a room.
+StoreyId ChooseStorey(const AGraph& plan, int wanted) {
+  std::vector<size_t> rooms(plan.storeys.size(), 0);
+  for (const Room& room : plan.rooms) {
+    if (room.storey.valid()) ++rooms[room.storey.index()];
+  }
+  if (rooms.empty()) return {};
+  const size_t most = static_cast<size_t>(std::max_element(rooms.begin(), rooms.end()) - rooms.begin());
+  const size_t chosen = wanted < 0 ? most : static_cast<size_t>(wanted);
+  return chosen < rooms.size() && rooms[chosen] > 0 ? StoreyId(chosen) : StoreyId();
+}
+
+// An empty scans folder; scans of an earlier recording would be taken for some of this one.
+Expected<void> PrepareFolder(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder / "scans", error);
+  if (error) return Fail(ErrorCode::kFileUnwritable, fmt::format("cannot make `{}`: {}", (folder / "scans").string(), error.message()));
+  std::vector<fs::path> old;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder / "scans", error)) {
+    if (entry.path().extension() == ".pcd") old.push_back(entry.path());
+  }
+  for (const fs::path& path : old) fs::remove(path, error);
+  if (error) return Fail(ErrorCode::kFileUnwritable, fmt::format("cannot clear `{}`: {}", (folder / "scans").string(), error.message()));
+  return {};
+}
+
+// To the nanosecond of the scan's file name, so that stamps read back as they were used.
+double StampOf(const SimulateOptions& options, const SensorModel& sensor, size_t scan) {
+  return std::round((options.start_stamp_s + static_cast<double>(scan) * sensor.period_s()) * 1e9) / 1e9;
+}
+
+// Takes and writes all sweeps. Each has a random stream of its own, so the threads' order does not matter.
+class Recorder {
+ public:
+  Recorder(const AGraph& plan, const AsBuilt& built, const Drive& drive, const SensorModel& sensor, const SimulateOptions& options)
+      : plan_(plan), counter_(plan, built), drive_(drive), lidar_(built.house, sensor, options.glass_transmission), options_(options),
+        surface_points_(plan.surfaces.size(), 0) {}
+
+  Expected<void> Run(const fs::path& folder, size_t scans, const SimulateProgress& progress) {
+    tbb::parallel_for(size_t{0}, scans, [&](size_t i) { RecordOne(folder, i, scans, progress); });
+    if (error_) return tl::unexpected(*error_);
+    return {};
+  }
+
+  [[nodiscard]] const std::vector<uint64_t>& surface_points() const { return surface_points_; }
+  [[nodiscard]] size_t points() const { return points_; }
+
+ private:
+  void RecordOne(const fs::path& folder, size_t i, size_t scans, const SimulateProgress& progress) {
+    const double stamp_s = StampOf(options_, lidar_.model(), i);
+    Random random(options_.seed, static_cast<uint64_t>(RandomStream::kSweeps) + i);
+    const auto pose = [this](double time_s) { return drive_.PoseAt(time_s); };
+    const Sweep sweep = lidar_.Take(stamp_s - options_.start_stamp_s, stamp_s, pose, random);
+    std::vector<uint32_t> seen(plan_.surfaces.size(), 0);
+    for (const Echo& echo : sweep.echoes) {
+      if (const SurfaceId id = counter_.SurfaceOf(echo); id.valid()) ++seen[id.index()];
+    }
+    const Expected<void> written = runtime::WritePcd(sweep.scan, (folder / "scans" / runtime::ScanFileName(stamp_s)).string());
+    const std::lock_guard lock(mutex_);
+    if (!written && !error_) error_ = written.error();
+    for (size_t s = 0; s < seen.size(); ++s) surface_points_[s] += seen[s];
+    points_ += sweep.scan.points.size();
+    if (progress) progress(++done_, scans);
+  }
+
+  const AGraph& plan_;
+  const SurfaceCounter counter_;
+  const Drive& drive_;
+  const Lidar lidar_;
+  const SimulateOptions& options_;
+  std::mutex mutex_;  // guards all below
+  std::optional<Error> error_;
+  std::vector<uint64_t> surface_points_;
+  size_t points_ = 0, done_ = 0;
+};
+
+runtime::Trajectory TruthAtScans(const Drive& drive, const SensorModel& sensor, const SimulateOptions& options, size_t scans) {
+  runtime::Trajectory truth;
+  for (size_t i = 0; i < scans; ++i) {
+    runtime::StampedPose pose;
+    pose.stamp_s = StampOf(options, sensor, i);
+    pose.T = drive.PoseAt(pose.stamp_s - options.start_stamp_s);
+    truth.push_back(pose);
+  }
+  return truth;
+}
+
+TourOptions ToTourOptions(const SimulateOptions& options) {
+  TourOptions tour;
+  tour.drive.speed_m_s = options.speed_m_s;
+  tour.drive.sensor_height_m = options.sensor_height_m;
+  tour.drive.wobble_rad = options.wobble_rad;
+  tour.min_duration_s = options.min_duration_s;
+  tour.max_duration_s = options.max_duration_s;
+  return tour;
+}
+
+}  // namespace
+
+std::string SimulateOptions::Check() const {
+  const auto bad = [](const char* field, auto value, const char* rule) {
+    return fmt::format("SimulateOptions.{} = {}; must be {}", field, value, rule);
+  };
+  if (deviate < 0) return bad("deviate", deviate, ">= 0");
+  if (!(min_translation_m >= 0)) return bad("min_translation_m", min_translation_m, ">= 0");
+  if (!(max_translation_m >= min_translation_m && max_translation_m <= 2)) {
+    return bad("max_translation_m", max_translation_m, "from min_translation_m to 2");
+  }
+  if (!(min_rotation_rad >= 0)) return bad("min_rotation_rad", min_rotation_rad, ">= 0");
+  if (!(max_rotation_rad >= min_rotation_rad && max_rotation_rad <= 0.5)) {
+    return bad("max_rotation_rad", max_rotation_rad, "from min_rotation_rad to 0.5");
+  }
+  if (!FindSensor(sensor)) return bad("sensor", sensor, fmt::format("one of {}", fmt::join(SensorNames(), ", ")).c_str());
+  if (!(speed_m_s >= 0.05 && speed_m_s <= 3)) return bad("speed_m_s", speed_m_s, "from 0.05 to 3");
+  if (!(sensor_height_m >= 0.1 && sensor_height_m <= 3)) return bad("sensor_height_m", sensor_height_m, "from 0.1 to 3");
+  if (!(min_duration_s >= 0 && min_duration_s <= 36000)) return bad("min_duration_s", min_duration_s, "from 0 to 36000");
+  if (!(max_duration_s >= std::max(1.0, min_duration_s))) return bad("max_duration_s", max_duration_s, ">= 1 and >= min_duration_s");
+  if (!(wobble_rad >= 0 && wobble_rad <= 0.1)) return bad("wobble_rad", wobble_rad, "from 0 to 0.1");
+  if (!(glass_transmission >= 0 && glass_transmission <= 1)) return bad("glass_transmission", glass_transmission, "from 0 to 1");
+  if (clutter < 0 || clutter > 1000) return bad("clutter", clutter, "from 0 to 1000");
+  if (!(start_stamp_s >= 1 && start_stamp_s < 9e9)) return bad("start_stamp_s", start_stamp_s, "from 1 to 9e9");
+  if (!(odometry_rate_hz >= 1 && odometry_rate_hz <= 1000)) return bad("odometry_rate_hz", odometry_rate_hz, "from 1 to 1000");
+  return {};
+}
+
+Expected<SimulateSummary> Simulate(const AGraph& plan, const SimulateOptions& options, const std::string& out_folder,
+                                   const SimulateProgress& progress) {
+  if (const std::string fault = options.Check(); !fault.empty()) return Fail(ErrorCode::kBadOption, fault);
+  SimulateSummary summary;
+  summary.storey = ChooseStorey(plan, options.storey);
+  if (!summary.storey.valid()) return Fail(ErrorCode::kPlanUnsuitable, "the plan has no room on the storey to drive on");
+  Expected<AsBuilt> built = BuildWithDeviations(plan, summary.storey, options);
+  if (!built) return tl::unexpected(built.error());
+  summary.walls = built->walls;
+  if (options.clutter > 0) summary.boxes = AddClutter(*built, summary.storey, options.clutter, options.seed);
+
+  const FreeSpace space(built->house, summary.storey, built->passages);
+  const Reach reach = FindReach(built->house, summary.storey, space);
+  Random random(options.seed, static_cast<uint64_t>(RandomStream::kTour));
+  const Expected<Tour> tour = PlanTour(built->house, space, reach, ToTourOptions(options), random);
+  if (!tour) return tl::unexpected(tour.error());
+  summary.start_room = tour->start_room;
+  summary.visited = tour->visited;
+  summary.not_visited = tour->not_visited;
+  summary.path_m = tour->path_m;
+  summary.robot_radius_m = reach.robot_radius_m;
+
+  const SensorModel sensor = *FindSensor(options.sensor);
+  const fs::path folder(out_folder);
+  summary.scans = static_cast<size_t>(std::floor(tour->drive.duration_s() * sensor.rate_hz));
+  summary.duration_s = static_cast<double>(summary.scans) * sensor.period_s();
+  if (const Expected<void> ready = PrepareFolder(folder); !ready) return tl::unexpected(ready.error());
+  Recorder recorder(plan, *built, tour->drive, sensor, options);
+  if (const Expected<void> run = recorder.Run(folder, summary.scans, progress); !run) return tl::unexpected(run.error());
+  summary.points = recorder.points();
+
+  const std::pair<const char*, std::string> files[] = {
+      {"odometry.tum", runtime::WriteTum(SimulateOdometry(tour->drive, options))},
+      {"truth.tum", runtime::WriteTum(TruthAtScans(tour->drive, sensor, options, summary.scans))},
+      {"truth.json", TruthToJson(plan, options, summary, recorder.surface_points())}};
+  for (const auto& [name, text] : files) {
+    const Expected<void> written = WriteFileAtomically((folder / name).string(), text);
+    if (!written) return tl::unexpected(written.error());
+  }
+  return summary;
+}
+
+}  // namespace plumb::tools

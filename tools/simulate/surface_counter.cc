@@ -1,0 +1,52 @@
+#include "tools/simulate/surface_counter.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+namespace plumb::tools {
+namespace {
+
+constexpr double kOnPlane_m = 0.02;      // faces may bow or step this much
+constexpr double kBeyondEnd_m = 0.8;     // walls are lengthened to meet others that moved
+
+// How far p is from the surface's stretch of its line, along it; negative inside.
+double BeyondEnd_m(const Surface& s, const Eigen::Vector2d& p) {
+  const Eigen::Vector2d along = (s.end - s.start).normalized();
+  return std::abs((p - s.midpoint()).dot(along)) - 0.5 * s.length_m();
+}
+
+double OffPlane_m(const Surface& s, const Eigen::Vector2d& p) {
+  if (s.arc) return std::abs((p - s.arc->center).norm() - s.arc->radius_m);
+  return std::abs(s.normal.head<2>().dot(p) + s.d_m);
+}
+
+}  // namespace
+
+SurfaceCounter::SurfaceCounter(const AGraph& plan, const AsBuilt& built) : plan_(plan), built_(built), of_wall_(plan.walls.size()) {
+  for (size_t i = 0; i < plan.surfaces.size(); ++i) {
+    if (plan.surfaces[i].wall.valid()) of_wall_[plan.surfaces[i].wall.index()].emplace_back(i);
+  }
+}
+
+SurfaceId SurfaceCounter::SurfaceOf(const Echo& echo) const {
+  const Element& element = built_.house.elements[built_.house.mesh.triangles[echo.triangle].element];
+  if (!IsWallBody(element)) return {};
+  const size_t wall = element.wall.index();
+  const Eigen::Vector3d built = echo.position.cast<double>() + plan_.origin;
+  const Eigen::Vector2d p = built_.motions[wall].inverse() * built.head<2>();  // where the plan has this spot
+  SurfaceId best;
+  double best_m = kBeyondEnd_m;
+  for (const SurfaceId id : of_wall_[wall]) {
+    const Surface& s = plan_.surfaces[id.index()];
+    if (OffPlane_m(s, p) > kOnPlane_m || built.z() < s.z_min_m - 0.05 || built.z() > s.z_max_m + 0.05) continue;
+    const double beyond_m = std::max(0.0, BeyondEnd_m(s, p));
+    if (beyond_m < best_m) {
+      best = id;
+      best_m = beyond_m;
+    }
+  }
+  return best;
+}
+
+}  // namespace plumb::tools

@@ -1,0 +1,83 @@
+#include "tools/simulate/truth_json.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+namespace plumb::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// Deviations to a micrometre and a millionth of a degree: more digits would only be noise of the arithmetic.
+double Rounded(double value) { return std::round(value * 1e6) / 1e6; }
+double Degrees(double rad) { return Rounded(rad * 180 / std::numbers::pi); }
+
+Json ToJson(const AGraph& plan, const WallDisplacement& w) {
+  const Wall& wall = plan.walls[w.wall.index()];
+  Json json = {{"wall_guid", wall.guid},
+               {"wall_id", w.wall.value},
+               {"wall_name", wall.name},
+               {"reference_surface", w.reference.value},
+               {"translation_m", Rounded(w.translation_m)},
+               {"rotation_deg", Degrees(w.rotation_rad)},
+               {"surfaces", Json::array()}};
+  for (const SurfaceDisplacement& s : w.surfaces) {
+    const double translation_m = Rounded(s.translation_m), rotation_deg = Degrees(s.rotation_rad);
+    json["surfaces"].push_back({{"id", s.surface.value}, {"translation_m", translation_m}, {"rotation_deg", rotation_deg}});
+  }
+  return json;
+}
+
+Json ToJson(const SimulateOptions& o) {
+  return {{"seed", o.seed},
+          {"deviate", o.deviate},
+          {"translation_m", {o.min_translation_m, o.max_translation_m}},
+          {"rotation_deg", {Degrees(o.min_rotation_rad), Degrees(o.max_rotation_rad)}},
+          {"sensor", o.sensor},
+          {"storey", o.storey},
+          {"speed_m_s", o.speed_m_s},
+          {"sensor_height_m", o.sensor_height_m},
+          {"min_duration_s", o.min_duration_s},
+          {"max_duration_s", o.max_duration_s},
+          {"wobble_rad", o.wobble_rad},
+          {"glass_transmission", o.glass_transmission},
+          {"clutter", o.clutter},
+          {"start_stamp_s", o.start_stamp_s},
+          {"odometry_rate_hz", o.odometry_rate_hz},
+          {"odometry_scale_sigma", o.odometry_scale_sigma},
+          {"odometry_yaw_bias_sigma_rad_s", o.odometry_yaw_bias_sigma_rad_s},
+          {"odometry_yaw_walk_rad_sqrt_s", o.odometry_yaw_walk_rad_sqrt_s},
+          {"odometry_slip", o.odometry_slip}};
+}
+
+Json Rooms(const AGraph& plan, const std::vector<RoomId>& rooms) {
+  Json json = Json::array();
+  for (const RoomId id : rooms) json.push_back({{"id", id.value}, {"name", plan.rooms[id.index()].name}});
+  return json;
+}
+
+}  // namespace
+
+std::string TruthToJson(const AGraph& plan, const SimulateOptions& options, const SimulateSummary& summary,
+                        const std::vector<uint64_t>& surface_points) {
+  Json json = {{"version", 1},
+               {"plan", {{"source", plan.source_path}, {"sha256", plan.source_sha256}}},
+               {"seed", options.seed},
+               {"storey", summary.storey.value},
+               {"walls", Json::array()},
+               {"surface_points", Json::object()}};
+  for (const WallDisplacement& w : summary.walls) json["walls"].push_back(ToJson(plan, w));
+  for (size_t i = 0; i < surface_points.size(); ++i) json["surface_points"][std::to_string(i)] = surface_points[i];
+  json["drive"] = {{"duration_s", Rounded(summary.duration_s)},
+                   {"path_m", Rounded(summary.path_m)},
+                   {"robot_radius_m", summary.robot_radius_m},
+                   {"start_room", summary.start_room.value},
+                   {"visited", Rooms(plan, summary.visited)},
+                   {"not_visited", Rooms(plan, summary.not_visited)},
+                   {"boxes", summary.boxes}};
+  json["options"] = ToJson(options);
+  return json.dump(1) + "\n";
+}
+
+}  // namespace plumb::tools

@@ -41,7 +41,8 @@ struct Node {
 
 class Csg {
  public:
-  explicit Csg(const CsgOptions& options) : epsilon_m_(options.plane_epsilon_m), max_polygons_(options.max_polygons), max_depth_(options.max_depth) {}
+  explicit Csg(const CsgOptions& options)
+      : epsilon_m_(options.plane_epsilon_m), max_polygons_(options.max_polygons), max_depth_(options.max_depth) {}
 
   std::unique_ptr<Node> Build(Polygons polygons, int depth = 0) {
     if (polygons.empty()) return nullptr;
@@ -263,15 +264,17 @@ Expected<Solid> Run(const Solid& a, const Solid& b, bool close, const CsgOptions
     if (untouched) return a;
     return ToSolid(std::move(kept), origin, epsilon_m);
   } catch (const LimitReached&) {
-    return Fail(ErrorCode::kInternal, fmt::format("the difference of solids of {} and {} triangles needs more than {} polygons or {} levels",
-                                                  a.triangles.size(), b.triangles.size(), options.max_polygons, options.max_depth));
+    return Fail(ErrorCode::kInternal,
+                fmt::format("the difference of solids of {} and {} triangles needs more than {} polygons or {} levels", a.triangles.size(),
+                            b.triangles.size(), options.max_polygons, options.max_depth));
   }
 }
 
 }  // namespace
 
 std::string CsgOptions::Check() const {
-  if (!(plane_epsilon_m > 0) || plane_epsilon_m > 1e-2) return fmt::format("CsgOptions.plane_epsilon_m = {}; must be in (0, 0.01]", plane_epsilon_m);
+  if (!(plane_epsilon_m > 0) || plane_epsilon_m > 1e-2)
+    return fmt::format("CsgOptions.plane_epsilon_m = {}; must be in (0, 0.01]", plane_epsilon_m);
   if (max_polygons == 0) return "CsgOptions.max_polygons = 0; must be positive";
   if (max_depth <= 0 || max_depth > 10000) return fmt::format("CsgOptions.max_depth = {}; must be in 1..10000", max_depth);
   return {};

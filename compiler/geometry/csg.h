@@ -1,9 +1,9 @@
 // Boolean difference of closed triangle solids, by binary space partitions (Naylor, Amanatides, Thibault 1990) over convex polygons.
 //
 // Guarantees: (1) points within `plane_epsilon_m` of a plane count as on it: faces of both operands that coincide to that precision leave
-// neither a skin nor a hole; (2) triangles of `a` that `b` does not cut into are passed on, but for corners of their neighbours that come to
-// lie on their edges; (3) the result of closed operands is closed edge by edge (IsClosed), as far as no feature is as thin as the planes.
-// Operands are moved near zero inside; far coordinates cost no precision beyond their own. O((n + m) log(n + m)) for usual solids.
+// neither a skin nor a hole; (2) triangles of `a` that `b` does not cut into are passed on, but for corners of their neighbours that come
+// to lie on their edges; (3) the result of closed operands is closed edge by edge (IsClosed), as far as no feature is as thin as the
+// planes. Operands are moved near zero inside; far coordinates cost no precision beyond their own. O((n + m) log(n + m)) for usual solids.
 #pragma once
 
 #include <string>

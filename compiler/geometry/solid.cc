@@ -37,7 +37,8 @@ std::vector<Side> SortedSides(const Solid& solid) {
       sides.push_back({std::min(a, b), std::max(a, b), static_cast<int>(t), a < b});
     }
   }
-  std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) { return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle); });
+  std::sort(sides.begin(), sides.end(),
+            [](const Side& a, const Side& b) { return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle); });
   return sides;
 }
 

@@ -36,7 +36,7 @@ void FlipSolid(Solid& solid);
 class VertexWelder {
  public:
   explicit VertexWelder(double tolerance_m);
-  [[nodiscard]] int FindOrAdd(const Eigen::Vector3d& p);  // its number
+  [[nodiscard]] int FindOrAdd(const Eigen::Vector3d& p);                            // its number
   [[nodiscard]] std::vector<Eigen::Vector3d> Take() { return std::move(points_); }  // by number
 
  private:
@@ -59,6 +59,7 @@ void OrientOutward(Solid& solid);
 [[nodiscard]] std::vector<Solid> ConnectedPieces(const Solid& solid);
 
 // The box [low, high] under `T_out_box`; 12 triangles.
-[[nodiscard]] Solid MakeBox(const Eigen::Vector3d& low, const Eigen::Vector3d& high, const Eigen::Affine3d& T_out_box = Eigen::Affine3d::Identity());
+[[nodiscard]] Solid MakeBox(const Eigen::Vector3d& low, const Eigen::Vector3d& high,
+                            const Eigen::Affine3d& T_out_box = Eigen::Affine3d::Identity());
 
 }  // namespace plumb::compiler

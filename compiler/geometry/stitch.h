@@ -8,9 +8,9 @@
 
 namespace plumb::compiler {
 
-// Triangulates polygons so that no corner of one lies inside an edge of another: corners closer than `tolerance_m` become one, and each that
-// lies within it of an edge becomes a corner there too. Polygons whose edges cover each other so end as a closed solid (IsClosed).
-// O(n log n) for polygons of like size.
+// Triangulates polygons so that no corner of one lies inside an edge of another: corners closer than `tolerance_m` become one, and each
+// that lies within it of an edge becomes a corner there too. Polygons whose edges cover each other so end as a closed solid (IsClosed). O(n
+// log n) for polygons of like size.
 [[nodiscard]] Solid StitchPolygons(const std::vector<Ring3>& polygons, double tolerance_m);
 
 }  // namespace plumb::compiler

@@ -24,7 +24,8 @@ bool AreaIsLeft(const Area& profile, size_t ring) {
     const Ring2& other = profile[r];
     for (size_t i = 0, j = other.size() - 1; i < other.size(); j = i++) {
       const bool crosses = (other[i].y() > p.y()) != (other[j].y() > p.y());
-      if (crosses && p.x() < (other[j].x() - other[i].x()) * (p.y() - other[i].y()) / (other[j].y() - other[i].y()) + other[i].x()) inside = !inside;
+      if (crosses && p.x() < (other[j].x() - other[i].x()) * (p.y() - other[i].y()) / (other[j].y() - other[i].y()) + other[i].x())
+        inside = !inside;
     }
     containing += inside;
   }

@@ -25,7 +25,6 @@ using FaceBase = CGAL::Constrained_triangulation_face_base_2<Kernel, CGAL::Trian
 using Cdt = CGAL::Constrained_Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>,
                                                        CGAL::Exact_predicates_tag>;
 
-
 constexpr int kNoLevel = -1;
 
 double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }

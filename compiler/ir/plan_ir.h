@@ -43,8 +43,9 @@ struct PlanElement {
 struct PlanOpening {
   std::string guid, name;
   SourceLocation location;
-  uint32_t wall = kNoIndex;                 // element that it voids
-  uint32_t filling = kNoIndex;              // door or window element that fills it; none: a passage if it reaches the floor
+  uint32_t wall = kNoIndex;  // element that it voids
+  // Door, window or (set into a wall) curtain wall element that fills it; none: a passage if it reaches the floor.
+  uint32_t filling = kNoIndex;
   Solid body;                               // the void; empty for a door without an opening chain (then the filling's box stands for it)
   std::optional<double> width_m, height_m;  // OverallWidth and OverallHeight of the filling where stated
 };

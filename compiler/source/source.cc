@@ -130,7 +130,8 @@ std::optional<Source> LoadSource(const std::string& path, DiagnosticSink& diagno
   if (IsGzip(*bytes)) {
     const InflateStatus status = Inflate(*bytes, options.max_bytes, source.bytes);
     if (status == InflateStatus::kTooLarge) {
-      diagnostics.Emit(DiagnosticKind::kFileTooLarge, {}, fmt::format("`{}` unpacks to more than {} bytes, the limit", path, options.max_bytes));
+      diagnostics.Emit(DiagnosticKind::kFileTooLarge, {},
+                       fmt::format("`{}` unpacks to more than {} bytes, the limit", path, options.max_bytes));
       return std::nullopt;
     }
     if (status == InflateStatus::kDamaged) {
@@ -150,8 +151,9 @@ std::optional<Source> LoadSource(const std::string& path, DiagnosticSink& diagno
 bool IsSupported(const Source& source, DiagnosticSink& diagnostics) {
   if (source.format == SourceFormat::kIfcStep) return true;
   diagnostics.Emit(DiagnosticKind::kUnknownFormat, {},
-                   source.bytes.empty() ? fmt::format("`{}` is empty", source.path)
-                                        : fmt::format("`{}` is {}; a plan is read as IFC in STEP syntax", source.path, FormatName(source.format)),
+                   source.bytes.empty()
+                       ? fmt::format("`{}` is empty", source.path)
+                       : fmt::format("`{}` is {}; a plan is read as IFC in STEP syntax", source.path, FormatName(source.format)),
                    HintFor(source.format));
   return false;
 }

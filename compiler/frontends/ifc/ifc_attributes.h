@@ -8,7 +8,7 @@
 namespace plumb::compiler::attribute {
 
 // IfcRoot and what every IfcObject, IfcProduct and IfcElement has.
-inline constexpr size_t kGlobalId = 0, kName = 2, kObjectType = 4, kPlacement = 5, kRepresentation = 6;
+inline constexpr size_t kGlobalId = 0, kName = 2, kPlacement = 5, kRepresentation = 6;
 inline constexpr size_t kSpatialLongName = 7, kStoreyElevation = 9;
 inline constexpr size_t kOverallHeight = 8, kOverallWidth = 9;  // IfcDoor, IfcWindow
 inline constexpr size_t kSlabType = 8;
@@ -19,7 +19,8 @@ inline constexpr size_t kContainedElements = 4, kContainingStructure = 5;
 inline constexpr size_t kAggregateWhole = 4, kAggregateParts = 5;
 inline constexpr size_t kVoidedElement = 4, kVoidingOpening = 5;
 inline constexpr size_t kFilledOpening = 4, kFillingElement = 5;
-inline constexpr size_t kRelatedObjects = 4, kRelatingDefinition = 5;  // IfcRelDefinesByProperties, IfcRelDefinesByType, IfcRelAssociatesMaterial
+inline constexpr size_t kRelatedObjects = 4,
+                        kRelatingDefinition = 5;  // IfcRelDefinesByProperties, IfcRelDefinesByType, IfcRelAssociatesMaterial
 
 // Properties, materials, styles.
 inline constexpr size_t kPropertySetName = 2, kPropertySetProperties = 4;
@@ -31,7 +32,7 @@ inline constexpr size_t kStyledItemItem = 0, kStyledItemStyles = 1, kStyleAssign
 inline constexpr size_t kSurfaceStyleName = 0, kSurfaceStyleStyles = 2, kShadingTransparency = 1;
 
 // Units.
-inline constexpr size_t kAssignedUnits = 0, kUnitType = 1, kSiPrefix = 2, kSiName = 3, kConversionFactor = 3;
+inline constexpr size_t kAssignedUnits = 0, kUnitType = 1, kSiPrefix = 2, kConversionFactor = 3;
 inline constexpr size_t kMeasureValue = 0, kMeasureUnit = 1;
 
 // Placements and transformations.
@@ -49,16 +50,19 @@ inline constexpr size_t kMapOrigin = 0, kMappedRepresentation = 1, kMappingSourc
 // Solids and surfaces.
 inline constexpr size_t kSweptArea = 0, kSweptPosition = 1, kExtrudedDirection = 2, kExtrusionDepth = 3, kEndSweptArea = 4;
 inline constexpr size_t kRevolutionAxis = 2, kRevolutionAngle = 3;
-inline constexpr size_t kDirectrix = 0, kDiskRadius = 1, kDiskInnerRadius = 2, kDirectrixStart = 3, kDirectrixEnd = 4;
+inline constexpr size_t kDirectrix = 0, kDiskRadius = 1;
 inline constexpr size_t kBooleanOperator = 0, kFirstOperand = 1, kSecondOperand = 2, kCsgTree = 0;
 inline constexpr size_t kHalfSpaceSurface = 0, kHalfSpaceAgreement = 1, kBoundedPosition = 2, kBoundedBoundary = 3;
 inline constexpr size_t kSurfacePosition = 0, kCylinderSurfaceRadius = 1;
 inline constexpr size_t kPrimitivePosition = 0, kBlockX = 1, kBlockY = 2, kBlockZ = 3, kCylinderHeight = 1, kCylinderRadius = 2;
 inline constexpr size_t kBrepOuter = 0, kBrepVoids = 1, kModelShells = 0, kShellFaces = 0;
-inline constexpr size_t kFaceBounds = 0, kFaceSurface = 1, kFaceSameSense = 2, kBoundLoop = 0, kBoundOrientation = 1, kLoopPoints = 0, kLoopEdges = 0;
-inline constexpr size_t kEdgeStart = 0, kEdgeEnd = 1, kOrientedEdgeElement = 2, kOrientedEdgeOrientation = 3, kEdgeGeometry = 2, kEdgeSameSense = 3;
+inline constexpr size_t kFaceBounds = 0, kFaceSurface = 1, kFaceSameSense = 2, kBoundLoop = 0, kBoundOrientation = 1, kLoopPoints = 0,
+                        kLoopEdges = 0;
+inline constexpr size_t kEdgeStart = 0, kEdgeEnd = 1, kOrientedEdgeElement = 2, kOrientedEdgeOrientation = 3, kEdgeGeometry = 2,
+                        kEdgeSameSense = 3;
 inline constexpr size_t kVertexGeometry = 0;
-inline constexpr size_t kFaceSetCoordinates = 0, kTriangleIndices = 3, kPolygonFaces = 2, kPolygonPointIndices = 3, kPolygonIndices = 0, kPolygonInnerIndices = 1;
+inline constexpr size_t kFaceSetCoordinates = 0, kTriangleIndices = 3, kPolygonFaces = 2, kPolygonPointIndices = 3, kPolygonIndices = 0,
+                        kPolygonInnerIndices = 1;
 inline constexpr size_t kPointListCoordinates = 0;
 inline constexpr size_t kBoxCorner = 0, kBoxX = 1, kBoxY = 2, kBoxZ = 3;
 
@@ -71,9 +75,9 @@ inline constexpr size_t kSplineDegree = 0, kSplinePoints = 1, kSplineMultiplicit
 
 // Profiles.
 inline constexpr size_t kProfileCurve = 2, kProfileInnerCurves = 3, kProfilePosition = 2;
-inline constexpr size_t kProfileX = 3, kProfileY = 4, kProfileRadius = 3, kHollowRectangleThickness = 5, kHollowCircleThickness = 4, kRoundingRadius = 5;
-inline constexpr size_t kTrapeziumTop = 4, kTrapeziumHeight = 5, kTrapeziumOffset = 6;
-inline constexpr size_t kShapeDim1 = 3, kShapeDim2 = 4, kShapeDim3 = 5, kShapeDim4 = 6;  // I, L, T, U, C, Z in their own orders
+inline constexpr size_t kProfileX = 3, kProfileY = 4, kHollowRectangleThickness = 5, kHollowCircleThickness = 4;
+inline constexpr size_t kShapeDim1 = 3, kShapeDim2 = 4, kShapeDim3 = 5,
+                        kShapeDim4 = 6;  // I, L, T, U, C, Z and trapezium in their own orders
 inline constexpr size_t kCenterLineThickness = 3, kCompositeProfiles = 2, kParentProfile = 2, kDerivedOperator = 3;
 
 }  // namespace plumb::compiler::attribute

@@ -87,7 +87,8 @@ std::vector<double> ExpandKnots(StepValue knots, StepValue multiplicities, size_
 Eigen::Vector4d EvaluateSpline(const std::vector<Eigen::Vector4d>& points, const std::vector<double>& knots, size_t degree, double u) {
   size_t span = degree;
   while (span + 1 < points.size() && u >= knots[span + 1]) ++span;
-  std::vector<Eigen::Vector4d> d(points.begin() + static_cast<std::ptrdiff_t>(span - degree), points.begin() + static_cast<std::ptrdiff_t>(span + 1));
+  std::vector<Eigen::Vector4d> d(points.begin() + static_cast<std::ptrdiff_t>(span - degree),
+                                 points.begin() + static_cast<std::ptrdiff_t>(span + 1));
   for (size_t r = 1; r <= degree; ++r) {
     for (size_t j = degree; j >= r; --j) {
       const double low = knots[j + span - degree], high = knots[j + 1 + span - r];
@@ -118,7 +119,8 @@ CurvePoints CurveReader::Read(const IfcInstance& curve, int depth) const {
   CurvePoints out;
   if (!curve) return out;
   if (depth > kMaxDepth) {
-    model_.Emit(DiagnosticKind::kReferenceCycle, curve.index, fmt::format("the curve {} contains itself or is nested more than {} deep", model_.Label(curve.index), kMaxDepth));
+    model_.Emit(DiagnosticKind::kReferenceCycle, curve.index,
+                fmt::format("the curve {} contains itself or is nested more than {} deep", model_.Label(curve.index), kMaxDepth));
     return out;
   }
   switch (curve.type) {
@@ -138,7 +140,8 @@ CurvePoints CurveReader::Read(const IfcInstance& curve, int depth) const {
     case IfcType::kIfcRationalBSplineCurveWithKnots: return Spline(curve);
     default: break;
   }
-  model_.Emit(DiagnosticKind::kUnsupportedGeometry, curve.index, fmt::format("the curve {} is of a type that is not read", model_.Label(curve.index)));
+  model_.Emit(DiagnosticKind::kUnsupportedGeometry, curve.index,
+              fmt::format("the curve {} is of a type that is not read", model_.Label(curve.index)));
   return out;
 }
 
@@ -162,7 +165,8 @@ CurvePoints CurveReader::Composite(const IfcInstance& curve, int depth) const {
     // Some programs state the sense wrongly: what joins on counts.
     if (!out.points.empty()) {
       const Vector3d& end = out.points.back();
-      if ((part.points.front() - end).norm() > kSamePoint_m && (part.points.back() - end).norm() < 0.1 * (part.points.front() - end).norm()) Reverse(part);
+      if ((part.points.front() - end).norm() > kSamePoint_m && (part.points.back() - end).norm() < 0.1 * (part.points.front() - end).norm())
+        Reverse(part);
     }
     Append(part, out);
   }
@@ -187,7 +191,8 @@ CurvePoints CurveReader::Trimmed(const IfcInstance& curve, int depth) const {
   if (basis.type == IfcType::kIfcLine) {
     const Vector3d origin = placements_.Point(basis[attribute::kLinePoint]);
     const IfcInstance vector = model_.Follow(basis[attribute::kLineDirection]);
-    const Vector3d direction = vector ? placements_.Direction(vector[attribute::kVectorOrientation], Vector3d::UnitX()).normalized() : Vector3d::UnitX();
+    const Vector3d direction =
+        vector ? placements_.Direction(vector[attribute::kVectorOrientation], Vector3d::UnitX()).normalized() : Vector3d::UnitX();
     const double magnitude_m = vector ? model_.Length(vector, attribute::kVectorMagnitude, model_.length_scale()) : model_.length_scale();
     const auto at = [&](const Trim& t) -> Vector3d {
       if (t.point && (by_point || !t.parameter)) return *t.point;
@@ -212,7 +217,8 @@ CurvePoints CurveReader::Conic(const IfcInstance& conic, double start_rad, doubl
   CurvePoints out;
   const Vector2d radii = Radii(model_, conic);
   if (!(radii.minCoeff() > 0)) {
-    model_.Emit(DiagnosticKind::kBadAttribute, conic.index, fmt::format("{} has a radius of {} m; must be positive", model_.Label(conic.index), radii.minCoeff()));
+    model_.Emit(DiagnosticKind::kBadAttribute, conic.index,
+                fmt::format("{} has a radius of {} m; must be positive", model_.Label(conic.index), radii.minCoeff()));
     return out;
   }
   const Isometry3d T = placements_.AxisPlacement(conic[attribute::kConicPosition]);
@@ -298,10 +304,12 @@ CurvePoints CurveReader::Spline(const IfcInstance& curve) const {
   }
   std::vector<double> knots;
   if (degree >= 1 && degree <= 16 && points.size() > static_cast<size_t>(degree)) {
-    knots = ExpandKnots(curve[attribute::kSplineKnots], curve[attribute::kSplineMultiplicities], static_cast<size_t>(degree), points.size());
+    knots =
+        ExpandKnots(curve[attribute::kSplineKnots], curve[attribute::kSplineMultiplicities], static_cast<size_t>(degree), points.size());
   }
   if (knots.empty()) {
-    model_.Emit(DiagnosticKind::kBadAttribute, curve.index, fmt::format("the knots of {} do not fit to its points and degree", model_.Label(curve.index)));
+    model_.Emit(DiagnosticKind::kBadAttribute, curve.index,
+                fmt::format("the knots of {} do not fit to its points and degree", model_.Label(curve.index)));
     return out;
   }
   const auto p = static_cast<size_t>(degree);

@@ -12,8 +12,8 @@
 namespace plumb::compiler {
 
 struct CurvePoints {
-  Ring3 points;            // 2D curves at z = 0; a closed curve ends where it began
-  std::vector<Arc> arcs;   // circular arcs that lie in the xy plane, exact
+  Ring3 points;           // 2D curves at z = 0; a closed curve ends where it began
+  std::vector<Arc> arcs;  // circular arcs that lie in the xy plane, exact
 };
 
 class CurveReader {
@@ -21,15 +21,16 @@ class CurveReader {
   CurveReader(const IfcModel& model, const PlacementReader& placements, double chord_tolerance_m)
       : model_(model), placements_(placements), chord_tolerance_m_(chord_tolerance_m) {}
 
-  // IfcPolyline, IfcIndexedPolyCurve, IfcCompositeCurve, IfcTrimmedCurve of lines and conics, IfcCircle, IfcEllipse, IfcBSplineCurveWithKnots.
-  // Empty, with an UnsupportedGeometry diagnostic, for others.
+  // IfcPolyline, IfcIndexedPolyCurve, IfcCompositeCurve, IfcTrimmedCurve of lines and conics, IfcCircle, IfcEllipse,
+  // IfcBSplineCurveWithKnots. Empty, with an UnsupportedGeometry diagnostic, for others.
   [[nodiscard]] CurvePoints Read(const IfcInstance& curve) const { return Read(curve, 0); }
 
   // The same without its repeated points and as a ring in the xy plane.
   [[nodiscard]] Ring2 ReadRing(const IfcInstance& curve, std::vector<Arc>* arcs) const;
 
   // The curve from `start` to `end` as far as it is a conic: the edges of advanced faces. Straight for other curves.
-  [[nodiscard]] Ring3 ReadBetween(const IfcInstance& curve, const Eigen::Vector3d& start, const Eigen::Vector3d& end, bool same_sense) const;
+  [[nodiscard]] Ring3 ReadBetween(const IfcInstance& curve, const Eigen::Vector3d& start, const Eigen::Vector3d& end,
+                                  bool same_sense) const;
 
   [[nodiscard]] std::vector<Eigen::Vector3d> PointList(const IfcInstance& list) const;  // IfcCartesianPointList2D and 3D
 

@@ -56,7 +56,8 @@ Ring3 FaceReader::EdgeLoop(const IfcInstance& loop) const {
     const Vector3d start = vertex(edge[attribute::kEdgeStart]), end = vertex(edge[attribute::kEdgeEnd]);
     Ring3 points = {start, end};
     if (edge.type == IfcType::kIfcEdgeCurve) {
-      points = curves_.ReadBetween(model_.Follow(edge[attribute::kEdgeGeometry]), start, end, edge[attribute::kEdgeSameSense].Boolean().value_or(true));
+      points = curves_.ReadBetween(model_.Follow(edge[attribute::kEdgeGeometry]), start, end,
+                                   edge[attribute::kEdgeSameSense].Boolean().value_or(true));
     }
     if (!oriented[attribute::kOrientedEdgeOrientation].Boolean().value_or(true)) std::reverse(points.begin(), points.end());
     ring.insert(ring.end(), points.begin(), points.end());
@@ -65,7 +66,8 @@ Ring3 FaceReader::EdgeLoop(const IfcInstance& loop) const {
 }
 
 // Unrolls the cylinder: triangles in (angle, height) connect points of like angle, so that they follow the surface.
-bool FaceReader::AppendCylinderFace(const IfcInstance& face, const IfcInstance& surface, const std::vector<Ring3>& rings, Solid& solid) const {
+bool FaceReader::AppendCylinderFace(const IfcInstance& face, const IfcInstance& surface, const std::vector<Ring3>& rings,
+                                    Solid& solid) const {
   const Eigen::Isometry3d T = placements_.AxisPlacement(surface[attribute::kSurfacePosition]);
   const double radius_m = model_.Length(surface, attribute::kCylinderSurfaceRadius);
   if (!(radius_m > 0)) return false;
@@ -116,7 +118,8 @@ void FaceReader::AppendIfcFace(const IfcInstance& face, Solid& solid) const {
     const IfcInstance surface = model_.Follow(face[attribute::kFaceSurface]);
     if (surface && surface.type == IfcType::kIfcCylindricalSurface && AppendCylinderFace(face, surface, rings, solid)) return;
     if (surface && surface.type != IfcType::kIfcPlane) {
-      model_.Emit(DiagnosticKind::kSimplifiedGeometry, surface.index, fmt::format("the curved surface {} is replaced by flat triangles between its edges", model_.Label(surface.index)));
+      model_.Emit(DiagnosticKind::kSimplifiedGeometry, surface.index,
+                  fmt::format("the curved surface {} is replaced by flat triangles between its edges", model_.Label(surface.index)));
     }
   }
   AppendFace(rings, solid);
@@ -150,7 +153,8 @@ void FaceReader::AppendTriangles(const IfcInstance& face_set, size_t point_count
     if (corners.size() == 3) {
       solid.triangles.emplace_back(corners[0], corners[1], corners[2]);
     } else {
-      model_.Emit(DiagnosticKind::kBadAttribute, face_set.index, fmt::format("a triangle of {} does not name three points in 1..{}", model_.Label(face_set.index), point_count));
+      model_.Emit(DiagnosticKind::kBadAttribute, face_set.index,
+                  fmt::format("a triangle of {} does not name three points in 1..{}", model_.Label(face_set.index), point_count));
       return;
     }
   }

@@ -72,7 +72,8 @@ uint32_t IfcModel::Resolve(StepValue reference) const {
   if (index == StepFile::kNone && missing_ids_.insert(*id).second) {
     SourceLocation location;
     location.step_id = *id;
-    diagnostics_->Emit(DiagnosticKind::kMissingReference, location, fmt::format("`#{}` is referred to, but the file has no such instance", *id));
+    diagnostics_->Emit(DiagnosticKind::kMissingReference, location,
+                       fmt::format("`#{}` is referred to, but the file has no such instance", *id));
   }
   return index;
 }
@@ -87,7 +88,8 @@ double IfcModel::Number(const IfcInstance& instance, size_t attribute_index, dou
   if (value.is_null() || value.kind() == StepValue::Kind::kDerived) return fallback;
   const std::optional<double> number = value.Real();
   if (number && std::isfinite(*number)) return *number;
-  Emit(DiagnosticKind::kBadAttribute, instance.index, fmt::format("attribute {} of {} is no number; it is taken as {}", attribute_index + 1, Label(instance.index), fallback));
+  Emit(DiagnosticKind::kBadAttribute, instance.index,
+       fmt::format("attribute {} of {} is no number; it is taken as {}", attribute_index + 1, Label(instance.index), fallback));
   return fallback;
 }
 

@@ -55,8 +55,8 @@ Solid PieceCutBefore(const Solid& opening, const Eigen::Isometry3d& T_plan_wall,
   return Subtract(whole, *outside, csg).value_or(Solid());
 }
 
-std::vector<std::pair<uint32_t, uint32_t>> MatchFillings(const std::vector<FillCandidate>& fillings, const std::vector<FillCandidate>& openings,
-                                                         double min_overlap) {
+std::vector<std::pair<uint32_t, uint32_t>> MatchFillings(const std::vector<FillCandidate>& fillings,
+                                                         const std::vector<FillCandidate>& openings, double min_overlap) {
   constexpr double kMargin_m = 0.05;  // thin leaves get a body, frames may stand out a little
   struct Pair {
     double score;
@@ -79,7 +79,8 @@ std::vector<std::pair<uint32_t, uint32_t>> MatchFillings(const std::vector<FillC
       if (overlap >= min_overlap && height_ratio >= min_overlap) pairs.push_back({overlap * height_ratio, f, o});
     }
   }
-  std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return std::tie(b.score, a.filling, a.opening) < std::tie(a.score, b.filling, b.opening); });
+  std::sort(pairs.begin(), pairs.end(),
+            [](const Pair& a, const Pair& b) { return std::tie(b.score, a.filling, a.opening) < std::tie(a.score, b.filling, b.opening); });
   std::vector<char> used_filling(fillings.size(), 0), used_opening(openings.size(), 0);
   std::vector<std::pair<size_t, size_t>> chosen;
   for (const Pair& pair : pairs) {

@@ -21,15 +21,16 @@ bool CutOpening(const IfcModel& model, CutPair pair, const IfcOptions& options, 
 
 // What `opening` takes of a straight wall whose body the program that wrote the file has cut already: the part of the opening within the
 // wall's box in the wall's own frame. Empty if the wall is no thin upright box, or if they do not meet.
-[[nodiscard]] Solid PieceCutBefore(const Solid& opening, const Eigen::Isometry3d& T_plan_wall, const Solid& wall, const IfcOptions& options);
+[[nodiscard]] Solid PieceCutBefore(const Solid& opening, const Eigen::Isometry3d& T_plan_wall, const Solid& wall,
+                                   const IfcOptions& options);
 
 struct FillCandidate {
   uint32_t index;
   Eigen::AlignedBox3d box;
 };
 
-// Pairs (filling, opening), each used once, best first: the filling's box lies in the opening's box to at least `min_overlap` and reaches as
-// high. Ordered by filling.
+// Pairs (filling, opening), each used once, best first: the filling's box lies in the opening's box to at least `min_overlap` and reaches
+// as high. Ordered by filling.
 [[nodiscard]] std::vector<std::pair<uint32_t, uint32_t>> MatchFillings(const std::vector<FillCandidate>& fillings,
                                                                        const std::vector<FillCandidate>& openings, double min_overlap);
 

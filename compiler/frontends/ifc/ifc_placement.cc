@@ -47,7 +47,8 @@ Vector3d PlacementReader::Point(const IfcInstance& point) const {
   if (!point) return Vector3d::Zero();
   Vector3d p;
   if (point.type == IfcType::kIfcCartesianPoint && ReadTriple(point[attribute::kCoordinates], p)) return p * model_.length_scale();
-  model_.Emit(DiagnosticKind::kBadAttribute, point.index, fmt::format("{} gives no coordinates; it is taken as the origin", model_.Label(point.index)));
+  model_.Emit(DiagnosticKind::kBadAttribute, point.index,
+              fmt::format("{} gives no coordinates; it is taken as the origin", model_.Label(point.index)));
   return Vector3d::Zero();
 }
 
@@ -56,7 +57,8 @@ Vector3d PlacementReader::Direction(StepValue reference, const Vector3d& fallbac
   if (!direction) return fallback;
   Vector3d d;
   if (direction.type == IfcType::kIfcDirection && ReadTriple(direction[attribute::kDirectionRatios], d) && d.norm() > 1e-12) return d;
-  model_.Emit(DiagnosticKind::kBadAttribute, direction.index, fmt::format("{} has no length; the default direction is taken", model_.Label(direction.index)));
+  model_.Emit(DiagnosticKind::kBadAttribute, direction.index,
+              fmt::format("{} has no length; the default direction is taken", model_.Label(direction.index)));
   return fallback;
 }
 
@@ -97,7 +99,8 @@ Isometry3d PlacementReader::ObjectPlacement(StepValue reference) {
     }
     chain.push_back(at);
     // Only a local placement says in its first attribute what it is relative to in every release.
-    at = at.type == IfcType::kIfcLocalPlacement || at.type == IfcType::kIfcLinearPlacement ? model_.Follow(at[attribute::kPlacementRelTo]) : IfcInstance();
+    at = at.type == IfcType::kIfcLocalPlacement || at.type == IfcType::kIfcLinearPlacement ? model_.Follow(at[attribute::kPlacementRelTo])
+                                                                                           : IfcInstance();
   }
   for (auto it = chain.rbegin(); it != chain.rend(); ++it) {
     T = T * OwnPlacement(*it);
@@ -110,7 +113,8 @@ Affine3d PlacementReader::Operator(StepValue reference) const {
   Affine3d T = Affine3d::Identity();
   const IfcInstance op = model_.Follow(reference);
   if (!op) return T;
-  const bool is_2d = op.type == IfcType::kIfcCartesianTransformationOperator2D || op.type == IfcType::kIfcCartesianTransformationOperator2DnonUniform;
+  const bool is_2d =
+      op.type == IfcType::kIfcCartesianTransformationOperator2D || op.type == IfcType::kIfcCartesianTransformationOperator2DnonUniform;
   const double scale = model_.Number(op, attribute::kOperatorScale, 1);
   Vector3d scales = Vector3d::Constant(scale);
   if (op.type == IfcType::kIfcCartesianTransformationOperator3DnonUniform) {

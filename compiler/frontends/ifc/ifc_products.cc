@@ -42,6 +42,7 @@ constexpr KnownKind kKnown[] = {
     {IfcType::kIfcSystemFurnitureElement, ElementKind::kFurniture},
     {IfcType::kIfcCovering, ElementKind::kCovering},
     {IfcType::kIfcBuildingElementProxy, ElementKind::kProxy},
+    {IfcType::kIfcProxy, ElementKind::kProxy},
     {IfcType::kIfcBuildingElementPart, ElementKind::kOther},
     {IfcType::kIfcSite, ElementKind::kGround},
     {IfcType::kIfcGeographicElement, ElementKind::kGround},
@@ -66,8 +67,10 @@ ProductKinds::ProductKinds(const IfcModel& model) : model_(model), kinds_(model.
   }
   for (uint16_t type = 0; type < kinds_.size(); ++type) {
     const auto instances = model.file().InstancesOf(type);
-    if (instances.empty() || model.TypeOf(instances[0]) != IfcType::kUnknown || model.file().type_name(type).starts_with("IFCSTRUCTURAL")) continue;
-    const bool is_product = std::any_of(instances.begin(), instances.end(), [&](uint32_t i) { return LooksLikeProduct(model, model.Get(i)); });
+    if (instances.empty() || model.TypeOf(instances[0]) != IfcType::kUnknown || model.file().type_name(type).starts_with("IFCSTRUCTURAL"))
+      continue;
+    const bool is_product =
+        std::any_of(instances.begin(), instances.end(), [&](uint32_t i) { return LooksLikeProduct(model, model.Get(i)); });
     if (is_product) kinds_[type] = ElementKind::kOther;
   }
 }

@@ -63,7 +63,8 @@ Profile ProfileReader::Read(const IfcInstance& profile, int depth) const {
   Profile out;
   if (!profile) return out;
   if (depth > kMaxDepth) {
-    model_.Emit(DiagnosticKind::kReferenceCycle, profile.index, fmt::format("the profile {} contains itself or is nested more than {} deep", model_.Label(profile.index), kMaxDepth));
+    model_.Emit(DiagnosticKind::kReferenceCycle, profile.index,
+                fmt::format("the profile {} contains itself or is nested more than {} deep", model_.Label(profile.index), kMaxDepth));
     return out;
   }
   switch (profile.type) {
@@ -139,7 +140,8 @@ Profile ProfileReader::Parameterized(const IfcInstance& profile) const {
       if (x_m > 0 && y_m > 0) out.area.push_back(Rectangle(x_m, y_m));
       const bool hollow = profile.type == IfcType::kIfcRectangleHollowProfileDef;
       const double thickness_m = hollow ? model_.Length(profile, attribute::kHollowRectangleThickness) : 0;
-      if (thickness_m > 0 && 2 * thickness_m < std::min(x_m, y_m)) out.area.push_back(Rectangle(x_m - 2 * thickness_m, y_m - 2 * thickness_m));
+      if (thickness_m > 0 && 2 * thickness_m < std::min(x_m, y_m))
+        out.area.push_back(Rectangle(x_m - 2 * thickness_m, y_m - 2 * thickness_m));
       break;
     }
     case IfcType::kIfcCircleProfileDef: out = Round(x_m, x_m, 0); break;
@@ -190,8 +192,18 @@ Area ProfileReader::RolledSection(const IfcInstance& profile) const {
     case IfcType::kIfcCShapeProfileDef: {  // depth, width, thickness, girth
       if (!has_four) return {};
       const double y = a / 2, x = b / 2, t = c, g = d;
-      return {{{-x, -y}, {x, -y}, {x, -y + g}, {x - t, -y + g}, {x - t, -y + t}, {-x + t, -y + t}, {-x + t, y - t}, {x - t, y - t}, {x - t, y - g},
-               {x, y - g}, {x, y}, {-x, y}}};
+      return {{{-x, -y},
+               {x, -y},
+               {x, -y + g},
+               {x - t, -y + g},
+               {x - t, -y + t},
+               {-x + t, -y + t},
+               {-x + t, y - t},
+               {x - t, y - t},
+               {x - t, y - g},
+               {x, y - g},
+               {x, y},
+               {-x, y}}};
     }
     case IfcType::kIfcZShapeProfileDef: {  // depth, width, web, flange
       if (!has_four) return {};

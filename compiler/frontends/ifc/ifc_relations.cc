@@ -50,7 +50,8 @@ void Relations::ReadExternal() {
     if (!name.starts_with("Pset_") || !name.ends_with("Common")) continue;
     for (const StepValue item : set[attribute::kPropertySetProperties].Items()) {
       const IfcInstance property = model_.Follow(item);
-      if (!property || property.type != IfcType::kIfcPropertySingleValue || property[attribute::kPropertyName].Text() != "IsExternal") continue;
+      if (!property || property.type != IfcType::kIfcPropertySingleValue || property[attribute::kPropertyName].Text() != "IsExternal")
+        continue;
       const std::optional<bool> value = property[attribute::kPropertyValue].Boolean();
       if (!value) continue;
       for (const StepValue object : rel[attribute::kRelatedObjects].Items()) {

@@ -14,12 +14,12 @@ class Relations {
   explicit Relations(const IfcModel& model);
 
   // StepFile::kNone where there is none.
-  [[nodiscard]] uint32_t WholeOf(uint32_t part) const { return whole_[part]; }            // IfcRelAggregates, IfcRelNests
+  [[nodiscard]] uint32_t WholeOf(uint32_t part) const { return whole_[part]; }                // IfcRelAggregates, IfcRelNests
   [[nodiscard]] uint32_t StructureOf(uint32_t element) const { return structure_[element]; }  // IfcRelContainedInSpatialStructure
-  [[nodiscard]] uint32_t HostOf(uint32_t opening) const { return host_[opening]; }        // IfcRelVoidsElement
-  [[nodiscard]] uint32_t OpeningOf(uint32_t filling) const { return opening_[filling]; }  // IfcRelFillsElement
-  [[nodiscard]] uint32_t MaterialOf(uint32_t object) const;                               // IfcRelAssociatesMaterial, else that of its type
-  [[nodiscard]] std::optional<bool> IsExternal(uint32_t element) const;                   // Pset_WallCommon and its kind
+  [[nodiscard]] uint32_t HostOf(uint32_t opening) const { return host_[opening]; }            // IfcRelVoidsElement
+  [[nodiscard]] uint32_t OpeningOf(uint32_t filling) const { return opening_[filling]; }      // IfcRelFillsElement
+  [[nodiscard]] uint32_t MaterialOf(uint32_t object) const;              // IfcRelAssociatesMaterial, else that of its type
+  [[nodiscard]] std::optional<bool> IsExternal(uint32_t element) const;  // Pset_WallCommon and its kind
 
   // The storey that holds an object directly or through what it is part of, what it fills or what it voids.
   [[nodiscard]] uint32_t StoreyOf(uint32_t object) const;

@@ -38,13 +38,15 @@ ShapeParts OnePart(Solid solid) {
 int BodyRank(const IfcInstance& representation) {
   const std::string id = representation[attribute::kRepresentationIdentifier].Text();
   const std::string type = representation[attribute::kRepresentationType].Text();
-  constexpr std::array<std::string_view, 9> kNoBody = {"Axis", "FootPrint", "Annotation", "Profile", "Clearance", "CoG", "Lighting", "Reference", "Plan"};
+  constexpr std::array<std::string_view, 9> kNoBody = {"Axis", "FootPrint", "Annotation", "Profile", "Clearance",
+                                                       "CoG",  "Lighting",  "Reference",  "Plan"};
   if (std::find(kNoBody.begin(), kNoBody.end(), id) != kNoBody.end()) return 0;
   if (type == "BoundingBox" || id == "Box") return 1;
   if (id == "Body") return 5;
   if (id == "Facetation" || id == "Body-Fallback" || id == "Body-FallBack" || id == "Tessellation") return 4;
-  constexpr std::array<std::string_view, 12> kSolid = {"SweptSolid", "AdvancedSweptSolid", "Clipping", "Brep", "AdvancedBrep", "CSG", "SurfaceModel", "SolidModel",
-                                                       "Tessellation", "MappedRepresentation", "Surface3D", "AttributeBody"};
+  constexpr std::array<std::string_view, 12> kSolid = {
+      "SweptSolid",   "AdvancedSweptSolid",   "Clipping",  "Brep",         "AdvancedBrep", "CSG", "SurfaceModel", "SolidModel",
+      "Tessellation", "MappedRepresentation", "Surface3D", "AttributeBody"};
   return std::find(kSolid.begin(), kSolid.end(), type) != kSolid.end() ? 3 : 0;
 }
 
@@ -94,7 +96,9 @@ std::optional<std::pair<Vector3d, Vector3d>> ShapeReader::Axis(const IfcInstance
     const StepItems items = representation[attribute::kRepresentationItems].Items();
     if (items.empty()) continue;
     const IfcInstance curve = model_.Follow(*items.begin());
-    if (!curve || curve.type == IfcType::kIfcMappedItem || curve.type == IfcType::kIfcGeometricSet || curve.type == IfcType::kIfcGeometricCurveSet) continue;
+    if (!curve || curve.type == IfcType::kIfcMappedItem || curve.type == IfcType::kIfcGeometricSet ||
+        curve.type == IfcType::kIfcGeometricCurveSet)
+      continue;
     const CurvePoints points = curves_.Read(curve);
     if (points.points.size() >= 2) return std::make_pair(points.points.front(), points.points.back());
   }
@@ -110,7 +114,8 @@ ShapeParts ShapeReader::Representation(const IfcInstance& representation, int de
     parts.insert(parts.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
     if (CountTriangles(parts) > options_.max_triangles_per_element) {
       model_.Emit(DiagnosticKind::kTooManyTriangles, representation.index,
-                  fmt::format("{} has over {} triangles; the rest is left out", model_.Label(representation.index), options_.max_triangles_per_element));
+                  fmt::format("{} has over {} triangles; the rest is left out", model_.Label(representation.index),
+                              options_.max_triangles_per_element));
       break;
     }
   }
@@ -119,7 +124,8 @@ ShapeParts ShapeReader::Representation(const IfcInstance& representation, int de
 
 ShapeParts ShapeReader::Item(const IfcInstance& item, int depth) {
   if (depth > kMaxDepth) {
-    model_.Emit(DiagnosticKind::kReferenceCycle, item.index, fmt::format("the shape {} contains itself or is nested more than {} deep", model_.Label(item.index), kMaxDepth));
+    model_.Emit(DiagnosticKind::kReferenceCycle, item.index,
+                fmt::format("the shape {} contains itself or is nested more than {} deep", model_.Label(item.index), kMaxDepth));
     return {};
   }
   ShapeParts parts = ReadItem(item, depth);
@@ -166,7 +172,8 @@ ShapeParts ShapeReader::ReadItem(const IfcInstance& item, int depth) {
     case IfcType::kIfcPolyline: return {};  // lines have no body
     default: break;
   }
-  model_.Emit(DiagnosticKind::kUnsupportedGeometry, item.index, fmt::format("the shape {} is of a type that is not read", model_.Label(item.index)));
+  model_.Emit(DiagnosticKind::kUnsupportedGeometry, item.index,
+              fmt::format("the shape {} is of a type that is not read", model_.Label(item.index)));
   return {};
 }
 
@@ -197,12 +204,14 @@ ShapeParts ShapeReader::Extruded(const IfcInstance& item) {
   if (item.type == IfcType::kIfcExtrudedAreaSolidTapered) {
     part.solid = Loft(profile.area, profiles_.Read(model_.Follow(item[attribute::kEndSweptArea])).area, offset);
     if (part.solid.empty()) {
-      model_.Emit(DiagnosticKind::kSimplifiedGeometry, item.index, fmt::format("the end profile of {} does not fit to its start; it is extruded straight", model_.Label(item.index)));
+      model_.Emit(DiagnosticKind::kSimplifiedGeometry, item.index,
+                  fmt::format("the end profile of {} does not fit to its start; it is extruded straight", model_.Label(item.index)));
     }
   }
   if (part.solid.empty()) part.solid = Extrude(profile.area, offset);
   if (part.solid.empty()) {
-    model_.Emit(DiagnosticKind::kDegenerateGeometry, item.index, fmt::format("{} encloses nothing: its profile or its depth is empty", model_.Label(item.index)));
+    model_.Emit(DiagnosticKind::kDegenerateGeometry, item.index,
+                fmt::format("{} encloses nothing: its profile or its depth is empty", model_.Label(item.index)));
     return {};
   }
   part.arcs = profile.arcs;
@@ -221,9 +230,11 @@ ShapeParts ShapeReader::Revolved(const IfcInstance& item) {
   for (const Ring2& ring : profile.area) {
     for (const Vector2d& p : ring) reach_m = std::max(reach_m, (p - point.head<2>()).norm());
   }
-  Solid solid = Revolve(profile.area, point.head<2>(), direction.head<2>(), angle_rad, ArcSegments(reach_m, angle_rad, options_.chord_tolerance_m));
+  Solid solid =
+      Revolve(profile.area, point.head<2>(), direction.head<2>(), angle_rad, ArcSegments(reach_m, angle_rad, options_.chord_tolerance_m));
   if (solid.empty()) {
-    model_.Emit(DiagnosticKind::kDegenerateGeometry, item.index, fmt::format("{} encloses nothing: its profile or its angle is empty", model_.Label(item.index)));
+    model_.Emit(DiagnosticKind::kDegenerateGeometry, item.index,
+                fmt::format("{} encloses nothing: its profile or its angle is empty", model_.Label(item.index)));
   }
   TransformSolid(Affine3d(placements_.AxisPlacement(item[attribute::kSweptPosition]).matrix()), solid);
   return OnePart(std::move(solid));
@@ -238,7 +249,8 @@ ShapeParts ShapeReader::Primitive(const IfcInstance& item) {
   const Affine3d T(placements_.AxisPlacement(item[attribute::kPrimitivePosition]).matrix());
   Solid solid;
   if (item.type == IfcType::kIfcBlock) {
-    const Vector3d size(model_.Length(item, attribute::kBlockX), model_.Length(item, attribute::kBlockY), model_.Length(item, attribute::kBlockZ));
+    const Vector3d size(model_.Length(item, attribute::kBlockX), model_.Length(item, attribute::kBlockY),
+                        model_.Length(item, attribute::kBlockZ));
     if (size.minCoeff() > 0) solid = MakeBox(Vector3d::Zero(), size);
   } else {
     const double radius_m = model_.Length(item, attribute::kCylinderRadius);
@@ -250,7 +262,9 @@ ShapeParts ShapeReader::Primitive(const IfcInstance& item) {
     }
     solid = Extrude({ring}, Vector3d::UnitZ() * model_.Length(item, attribute::kCylinderHeight));
   }
-  if (solid.empty()) model_.Emit(DiagnosticKind::kDegenerateGeometry, item.index, fmt::format("{} has measures that are not positive", model_.Label(item.index)));
+  if (solid.empty())
+    model_.Emit(DiagnosticKind::kDegenerateGeometry, item.index,
+                fmt::format("{} has measures that are not positive", model_.Label(item.index)));
   TransformSolid(T, solid);
   return OnePart(std::move(solid));
 }
@@ -278,12 +292,14 @@ ShapeParts ShapeReader::Boolean(const IfcInstance& item, int depth) {
   ShapeParts parts = Item(first, depth + 1);
   if (!second || parts.empty()) return parts;
   const std::string_view op = item[attribute::kBooleanOperator].Enumeration();
-  const bool is_half_space = second.type == IfcType::kIfcHalfSpaceSolid || second.type == IfcType::kIfcPolygonalBoundedHalfSpace || second.type == IfcType::kIfcBoxedHalfSpace;
+  const bool is_half_space = second.type == IfcType::kIfcHalfSpaceSolid || second.type == IfcType::kIfcPolygonalBoundedHalfSpace ||
+                             second.type == IfcType::kIfcBoxedHalfSpace;
   if (is_half_space) {
     if (op == "DIFFERENCE") {
       SubtractHalfSpace(second, item.index, parts);
     } else {
-      model_.Emit(DiagnosticKind::kUnsupportedGeometry, item.index, fmt::format("{} combines a half space by {}; only DIFFERENCE is read", model_.Label(item.index), op));
+      model_.Emit(DiagnosticKind::kUnsupportedGeometry, item.index,
+                  fmt::format("{} combines a half space by {}; only DIFFERENCE is read", model_.Label(item.index), op));
     }
     return parts;
   }
@@ -323,7 +339,8 @@ void ShapeReader::IntersectParts(const ShapeParts& tools, uint32_t result, Shape
 void ShapeReader::SubtractHalfSpace(const IfcInstance& half_space, uint32_t result, ShapeParts& parts) const {
   const IfcInstance plane = model_.Follow(half_space[attribute::kHalfSpaceSurface]);
   if (!plane || plane.type != IfcType::kIfcPlane) {
-    model_.Emit(DiagnosticKind::kUnsupportedGeometry, half_space.index, fmt::format("the half space {} is not bounded by a plane; the cut is left out", model_.Label(half_space.index)));
+    model_.Emit(DiagnosticKind::kUnsupportedGeometry, half_space.index,
+                fmt::format("the half space {} is not bounded by a plane; the cut is left out", model_.Label(half_space.index)));
     return;
   }
   const Isometry3d T_plane = placements_.AxisPlacement(plane[attribute::kSurfacePosition]);

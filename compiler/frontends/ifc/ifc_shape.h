@@ -18,7 +18,7 @@ namespace plumb::compiler {
 struct ShapePart {
   Solid solid;
   Look look = Look::kUnstated;
-  std::vector<Arc> arcs;  // exact arcs of an extruded profile ...
+  std::vector<Arc> arcs;                                         // exact arcs of an extruded profile ...
   Eigen::Affine3d T_part_profile = Eigen::Affine3d::Identity();  // ... and where its plane lies
 };
 using ShapeParts = std::vector<ShapePart>;

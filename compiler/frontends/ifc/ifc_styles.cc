@@ -8,7 +8,8 @@ namespace {
 
 constexpr int kMaxDepth = 8;
 constexpr std::string_view kGlass[] = {"glas", "glaz", "verre", "vitr", "vidr", "vetro"};
-constexpr std::string_view kNotGlass[] = {"glaswol", "glass wool", "glasswool", "glasfaser", "glasvlies", "glass fib", "fiberglas", "fibreglas", "glass block", "glasbaustein"};
+constexpr std::string_view kNotGlass[] = {"glaswol",   "glass wool", "glasswool", "glasfaser",   "glasvlies",
+                                          "glass fib", "fiberglas",  "fibreglas", "glass block", "glasbaustein"};
 
 // Stated glass wins over stated opaque, that over nothing.
 Look Stronger(Look a, Look b) { return std::max(a, b); }
@@ -17,7 +18,8 @@ Look Stronger(Look a, Look b) { return std::max(a, b); }
 
 bool IsGlassName(std::string_view name) {
   std::string lower(name);
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
   const auto contains = [&lower](std::string_view word) { return lower.find(word) != std::string::npos; };
   return std::any_of(std::begin(kGlass), std::end(kGlass), contains) && std::none_of(std::begin(kNotGlass), std::end(kNotGlass), contains);
 }
@@ -55,11 +57,13 @@ Look StyleReader::OfStyle(const IfcInstance& style, int depth) const {
   if (!style || depth > kMaxDepth) return look;
   switch (style.type) {
     case IfcType::kIfcPresentationStyleAssignment:
-      for (const StepValue item : style[attribute::kStyleAssignmentStyles].Items()) look = Stronger(look, OfStyle(model_.Follow(item), depth + 1));
+      for (const StepValue item : style[attribute::kStyleAssignmentStyles].Items())
+        look = Stronger(look, OfStyle(model_.Follow(item), depth + 1));
       return look;
     case IfcType::kIfcSurfaceStyle:
       if (IsGlassName(style[attribute::kSurfaceStyleName].Text())) return Look::kGlass;
-      for (const StepValue item : style[attribute::kSurfaceStyleStyles].Items()) look = Stronger(look, OfStyle(model_.Follow(item), depth + 1));
+      for (const StepValue item : style[attribute::kSurfaceStyleStyles].Items())
+        look = Stronger(look, OfStyle(model_.Follow(item), depth + 1));
       return look;
     case IfcType::kIfcSurfaceStyleRendering:
     case IfcType::kIfcSurfaceStyleShading: {

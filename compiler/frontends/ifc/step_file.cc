@@ -56,7 +56,8 @@ class TypeTable {
 
 class StepIndexer {
  public:
-  StepIndexer(std::string_view text, DiagnosticSink& diagnostics) : begin_(text.data()), end_(begin_ + text.size()), diagnostics_(diagnostics) {
+  StepIndexer(std::string_view text, DiagnosticSink& diagnostics)
+      : begin_(text.data()), end_(begin_ + text.size()), diagnostics_(diagnostics) {
     file_.text_ = text;
     const size_t expected = text.size() / 48;
     file_.ids_.reserve(expected);
@@ -225,7 +226,9 @@ class StepIndexer {
     return semicolon != nullptr ? semicolon + 1 : end_;
   }
 
-  static std::string Printable(char c) { return c >= ' ' && c <= '~' ? std::string(1, c) : fmt::format("byte 0x{:02x}", static_cast<unsigned char>(c)); }
+  static std::string Printable(char c) {
+    return c >= ' ' && c <= '~' ? std::string(1, c) : fmt::format("byte 0x{:02x}", static_cast<unsigned char>(c));
+  }
 
   const char* begin_;
   const char* end_;

@@ -28,7 +28,9 @@ class StepFile {
   [[nodiscard]] uint32_t size() const { return static_cast<uint32_t>(ids_.size()); }
   [[nodiscard]] uint64_t id(uint32_t instance) const { return ids_[instance]; }  // 12 of #12
   [[nodiscard]] uint32_t Find(uint64_t id) const;                                // kNone if the file has no such id
-  [[nodiscard]] StepArguments Arguments(uint32_t instance) const { return {text_.data() + offsets_[instance], text_.data() + text_.size()}; }
+  [[nodiscard]] StepArguments Arguments(uint32_t instance) const {
+    return {text_.data() + offsets_[instance], text_.data() + text_.size()};
+  }
   [[nodiscard]] uint32_t Line(uint32_t instance) const { return LineAt(offsets_[instance]); }
 
   // Types are numbered in the order of their first use; names as written, in capitals.

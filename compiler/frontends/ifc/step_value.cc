@@ -62,17 +62,13 @@ const char* SkipStepValue(const char* p, const char* end) {
   size_t depth = 0;
   while (p != end) {
     switch (*p) {
-      case '\'':
-        p = SkipString(p, end);
-        continue;
+      case '\'': p = SkipString(p, end); continue;
       case '/': {
         const char* next = SkipStepSpace(p, end);
         p = next == p ? p + 1 : next;
         continue;
       }
-      case '(':
-        ++depth;
-        break;
+      case '(': ++depth; break;
       case ')':
         if (depth == 0) return p;
         --depth;
@@ -80,10 +76,8 @@ const char* SkipStepValue(const char* p, const char* end) {
       case ',':
         if (depth == 0) return p;
         break;
-      case ';':
-        return p;
-      default:
-        break;
+      case ';': return p;
+      default: break;
     }
     ++p;
   }

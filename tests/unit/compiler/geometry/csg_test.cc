@@ -46,7 +46,9 @@ TEST(Subtract, OpeningFlushWithBothFacesLeavesNoSkin) {
     ExpectClosed(result);
     // No triangle lies across the opening.
     for (const auto& t : result.triangles) {
-      const Vector3d center = (result.vertices[static_cast<size_t>(t[0])] + result.vertices[static_cast<size_t>(t[1])] + result.vertices[static_cast<size_t>(t[2])]) / 3;
+      const Vector3d center = (result.vertices[static_cast<size_t>(t[0])] + result.vertices[static_cast<size_t>(t[1])] +
+                               result.vertices[static_cast<size_t>(t[2])]) /
+                              3;
       EXPECT_FALSE(center.x() > 1.001 && center.x() < 1.999 && center.z() < 1.999) << center.transpose();
     }
   }
@@ -132,7 +134,8 @@ TEST(Subtract, PartsAddUpForRandomBoxes) {
   for (int i = 0; i < 60; ++i) {
     const Solid a = MakeBox({0, 0, 0}, {1 + uniform(), 1 + uniform(), 1 + uniform()});
     Affine3d T = Affine3d::Identity();
-    T.translate(Vector3d(uniform(), uniform(), uniform())).rotate(Eigen::AngleAxisd(uniform() * 6, Vector3d(uniform(), uniform(), 1).normalized()));
+    T.translate(Vector3d(uniform(), uniform(), uniform()))
+        .rotate(Eigen::AngleAxisd(uniform() * 6, Vector3d(uniform(), uniform(), 1).normalized()));
     const Solid b = MakeBox({-0.6, -0.5, -0.4}, {0.5, 0.6, 0.7}, T);
     const Solid outside = Difference(a, b), inside = Difference(a, outside);
     ExpectClosed(outside);

@@ -31,9 +31,11 @@ TEST_F(CurveReaderTest, TrimmedCircleByAngleAndSense) {
 
 TEST_F(CurveReaderTest, TrimmedByPoints) {
   Open(
-      "#10=IFCTRIMMEDCURVE(#11,(#14),(#15),.T.,.CARTESIAN.);\n#11=IFCCIRCLE(#12,1.);\n#12=IFCAXIS2PLACEMENT2D(#13,$);\n#13=IFCCARTESIANPOINT((0.,0.));\n"
+      "#10=IFCTRIMMEDCURVE(#11,(#14),(#15),.T.,.CARTESIAN.);\n#11=IFCCIRCLE(#12,1.);\n#12=IFCAXIS2PLACEMENT2D(#13,$);\n#13="
+      "IFCCARTESIANPOINT((0.,0.));\n"
       "#14=IFCCARTESIANPOINT((0.,1.));\n#15=IFCCARTESIANPOINT((-1.,0.));\n"
-      "#20=IFCTRIMMEDCURVE(#21,(IFCPARAMETERVALUE(1.)),(IFCPARAMETERVALUE(3.)),.T.,.PARAMETER.);\n#21=IFCLINE(#13,#22);\n#22=IFCVECTOR(#23,2.);\n"
+      "#20=IFCTRIMMEDCURVE(#21,(IFCPARAMETERVALUE(1.)),(IFCPARAMETERVALUE(3.)),.T.,.PARAMETER.);\n#21=IFCLINE(#13,#22);\n#22=IFCVECTOR(#23,"
+      "2.);\n"
       "#23=IFCDIRECTION((0.,5.));");
   EXPECT_TRUE(curves_->Read(Get(10)).points.back().isApprox(Vector3d(-1, 0, 0)));
   const CurvePoints line = curves_->Read(Get(20));
@@ -44,8 +46,10 @@ TEST_F(CurveReaderTest, TrimmedByPoints) {
 
 TEST_F(CurveReaderTest, CompositeJoinsSegmentsAlsoIfTheSenseIsWrong) {
   const std::string data =
-      "#10=IFCCOMPOSITECURVE((#11,#12),.F.);\n#11=IFCCOMPOSITECURVESEGMENT(.CONTINUOUS.,.T.,#13);\n#12=IFCCOMPOSITECURVESEGMENT(.CONTINUOUS.,SENSE,#14);\n"
-      "#13=IFCPOLYLINE((#15,#16));\n#14=IFCPOLYLINE((#17,#16));\n#15=IFCCARTESIANPOINT((0.,0.));\n#16=IFCCARTESIANPOINT((1.,0.));\n#17=IFCCARTESIANPOINT((1.,1.));";
+      "#10=IFCCOMPOSITECURVE((#11,#12),.F.);\n#11=IFCCOMPOSITECURVESEGMENT(.CONTINUOUS.,.T.,#13);\n#12=IFCCOMPOSITECURVESEGMENT(."
+      "CONTINUOUS.,SENSE,#14);\n"
+      "#13=IFCPOLYLINE((#15,#16));\n#14=IFCPOLYLINE((#17,#16));\n#15=IFCCARTESIANPOINT((0.,0.));\n#16=IFCCARTESIANPOINT((1.,0.));\n#17="
+      "IFCCARTESIANPOINT((1.,1.));";
   for (const std::string sense : {".F.", ".T."}) {
     std::string text = data;
     text.replace(text.find("SENSE"), 5, sense);
@@ -59,7 +63,8 @@ TEST_F(CurveReaderTest, CompositeJoinsSegmentsAlsoIfTheSenseIsWrong) {
 TEST_F(CurveReaderTest, IndexedCurveWithLinesAndArcs) {
   Open(
       "#10=IFCINDEXEDPOLYCURVE(#11,(IFCLINEINDEX((1,2)),IFCARCINDEX((2,3,4)),IFCLINEINDEX((4,1))),.F.);\n"
-      "#11=IFCCARTESIANPOINTLIST2D(((0.,0.),(2.,0.),(3.,1.),(2.,2.)));\n#12=IFCINDEXEDPOLYCURVE(#11,$,.F.);\n#13=IFCINDEXEDPOLYCURVE(#11,(IFCLINEINDEX((1,9))),.F.);");
+      "#11=IFCCARTESIANPOINTLIST2D(((0.,0.),(2.,0.),(3.,1.),(2.,2.)));\n#12=IFCINDEXEDPOLYCURVE(#11,$,.F.);\n#13=IFCINDEXEDPOLYCURVE(#11,("
+      "IFCLINEINDEX((1,9))),.F.);");
   std::vector<Arc> arcs;
   const Ring2 ring = curves_->ReadRing(Get(10), &arcs);
   EXPECT_NEAR(SignedArea(ring), 0.5 * 2 * 2 + kPi / 2, 0.01);  // a triangle and a half disk
@@ -77,7 +82,8 @@ TEST_F(CurveReaderTest, IndexedCurveWithLinesAndArcs) {
 TEST_F(CurveReaderTest, SplineThroughItsEnds) {
   Open(
       "#10=IFCBSPLINECURVEWITHKNOTS(2,(#11,#12,#13),.UNSPECIFIED.,.F.,.F.,(3,3),(0.,1.),.UNSPECIFIED.);\n#11=IFCCARTESIANPOINT((0.,0.));\n"
-      "#12=IFCCARTESIANPOINT((1.,2.));\n#13=IFCCARTESIANPOINT((2.,0.));\n#20=IFCBSPLINECURVEWITHKNOTS(2,(#11,#12,#13),.U.,.F.,.F.,(3,9),(0.,1.),.U.);");
+      "#12=IFCCARTESIANPOINT((1.,2.));\n#13=IFCCARTESIANPOINT((2.,0.));\n#20=IFCBSPLINECURVEWITHKNOTS(2,(#11,#12,#13),.U.,.F.,.F.,(3,9),(0."
+      ",1.),.U.);");
   const CurvePoints curve = curves_->Read(Get(10));
   ASSERT_EQ(curve.points.size(), 9u);
   EXPECT_TRUE(curve.points[4].isApprox(Vector3d(1, 1, 0)));  // Bezier: (p0 + 2 p1 + p2) / 4

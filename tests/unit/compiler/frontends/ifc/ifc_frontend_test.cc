@@ -164,7 +164,8 @@ TEST(ReadIfc, WallCutBeforeGetsItsUncutBodyBack) {
   std::string text = Scene();
   text.replace(text.find("(#25)"), 5, "(#80,#81)");
   text.insert(text.find("\nENDSEC;\nEND-ISO"),
-              "\n#80=IFCEXTRUDEDAREASOLID(#82,$,#29,2.5);\n#81=IFCEXTRUDEDAREASOLID(#83,$,#29,2.5);\n#82=IFCRECTANGLEPROFILEDEF(.AREA.,$,#84,1.5,0.3);\n"
+              "\n#80=IFCEXTRUDEDAREASOLID(#82,$,#29,2.5);\n#81=IFCEXTRUDEDAREASOLID(#83,$,#29,2.5);\n#82=IFCRECTANGLEPROFILEDEF(.AREA.,$,#"
+              "84,1.5,0.3);\n"
               "#83=IFCRECTANGLEPROFILEDEF(.AREA.,$,#85,2.5,0.3);\n#84=IFCAXIS2PLACEMENT2D(#86,$);\n#85=IFCAXIS2PLACEMENT2D(#87,$);\n"
               "#86=IFCCARTESIANPOINT((0.75,0.));\n#87=IFCCARTESIANPOINT((3.75,0.));");
   const Result result = Read(text);

@@ -28,7 +28,8 @@ TEST_F(PlacementTest, ChainsOfPlacementsMultiply) {
   Open(
       "#10=IFCX(#11);\n#11=IFCLOCALPLACEMENT(#12,#13);\n#12=IFCLOCALPLACEMENT($,#14);\n"
       "#13=IFCAXIS2PLACEMENT3D(#15,$,$);\n#14=IFCAXIS2PLACEMENT3D(#16,#17,#18);\n"
-      "#15=IFCCARTESIANPOINT((1.,0.,0.));\n#16=IFCCARTESIANPOINT((10.,20.,3.));\n#17=IFCDIRECTION((0.,0.,1.));\n#18=IFCDIRECTION((0.,1.,0.));");
+      "#15=IFCCARTESIANPOINT((1.,0.,0.));\n#16=IFCCARTESIANPOINT((10.,20.,3.));\n#17=IFCDIRECTION((0.,0.,1.));\n#18=IFCDIRECTION((0.,1.,0.)"
+      ");");
   PlacementReader reader(*model_);
   const Eigen::Isometry3d T = reader.ObjectPlacement(Reference());
   EXPECT_TRUE((T * Vector3d::Zero()).isApprox(Vector3d(10, 21, 3)));

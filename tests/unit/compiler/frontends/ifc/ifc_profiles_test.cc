@@ -51,7 +51,9 @@ TEST_F(ProfileReaderTest, AreasOfParameterizedProfiles) {
 }
 
 TEST_F(ProfileReaderTest, PositionMovesAndTurns) {
-  Open("#10=IFCRECTANGLEPROFILEDEF(.AREA.,$,#20,4.,2.);\n#20=IFCAXIS2PLACEMENT2D(#21,#22);\n#21=IFCCARTESIANPOINT((3.,4.));\n#22=IFCDIRECTION((0.,1.));");
+  Open(
+      "#10=IFCRECTANGLEPROFILEDEF(.AREA.,$,#20,4.,2.);\n#20=IFCAXIS2PLACEMENT2D(#21,#22);\n#21=IFCCARTESIANPOINT((3.,4.));\n#22="
+      "IFCDIRECTION((0.,1.));");
   Eigen::AlignedBox2d box;
   const Profile profile = profiles_->Read(Get(10));
   for (const Eigen::Vector2d& p : profile.area[0]) box.extend(p);
@@ -61,10 +63,14 @@ TEST_F(ProfileReaderTest, PositionMovesAndTurns) {
 
 TEST_F(ProfileReaderTest, ArbitraryWithVoidsAndDerived) {
   const std::string points =
-      "#30=IFCPOLYLINE((#31,#32,#33,#34,#31));\n#31=IFCCARTESIANPOINT((0.,0.));\n#32=IFCCARTESIANPOINT((4.,0.));\n#33=IFCCARTESIANPOINT((4.,3.));\n"
+      "#30=IFCPOLYLINE((#31,#32,#33,#34,#31));\n#31=IFCCARTESIANPOINT((0.,0.));\n#32=IFCCARTESIANPOINT((4.,0.));\n#33=IFCCARTESIANPOINT((4."
+      ",3.));\n"
       "#34=IFCCARTESIANPOINT((0.,3.));\n#40=IFCCIRCLE(#41,1.);\n#41=IFCAXIS2PLACEMENT2D(#42,$);\n#42=IFCCARTESIANPOINT((2.,1.5));\n"
       "#50=IFCCARTESIANTRANSFORMATIONOPERATOR2D($,$,#31,2.);";
-  Open("#10=IFCARBITRARYPROFILEDEFWITHVOIDS(.AREA.,$,#30,(#40));\n#11=IFCDERIVEDPROFILEDEF(.AREA.,$,#10,#50,$);\n#12=IFCMIRROREDPROFILEDEF(.AREA.,$,#10,$,$);\n" + points);
+  Open(
+      "#10=IFCARBITRARYPROFILEDEFWITHVOIDS(.AREA.,$,#30,(#40));\n#11=IFCDERIVEDPROFILEDEF(.AREA.,$,#10,#50,$);\n#12=IFCMIRROREDPROFILEDEF(."
+      "AREA.,$,#10,$,$);\n" +
+      points);
   const Profile profile = profiles_->Read(Get(10));
   EXPECT_NEAR(AreaOf(profile), 12 - kPi, 0.02);
   ASSERT_EQ(profile.arcs.size(), 1u);
@@ -79,13 +85,16 @@ TEST_F(ProfileReaderTest, ArbitraryWithVoidsAndDerived) {
 
 TEST_F(ProfileReaderTest, CenterLineGetsItsThickness) {
   Open(
-      "#10=IFCCENTERLINEPROFILEDEF(.CURVE.,$,#30,0.2);\n#30=IFCPOLYLINE((#31,#32,#33));\n#31=IFCCARTESIANPOINT((0.,0.));\n#32=IFCCARTESIANPOINT((4.,0.));\n"
+      "#10=IFCCENTERLINEPROFILEDEF(.CURVE.,$,#30,0.2);\n#30=IFCPOLYLINE((#31,#32,#33));\n#31=IFCCARTESIANPOINT((0.,0.));\n#32="
+      "IFCCARTESIANPOINT((4.,0.));\n"
       "#33=IFCCARTESIANPOINT((4.,3.));");
   EXPECT_NEAR(AreaOf(profiles_->Read(Get(10))), 7 * 0.2, 1e-9);
 }
 
 TEST_F(ProfileReaderTest, BadMeasuresAndUnknownTypesAreDiagnostics) {
-  Open("#10=IFCRECTANGLEPROFILEDEF(.AREA.,$,$,-4.,0.3);\n#11=IFCSOMEPROFILEDEF(.AREA.,$,$,1.);\n#12=IFCCOMPOSITEPROFILEDEF(.AREA.,$,(#12),$);");
+  Open(
+      "#10=IFCRECTANGLEPROFILEDEF(.AREA.,$,$,-4.,0.3);\n#11=IFCSOMEPROFILEDEF(.AREA.,$,$,1.);\n#12=IFCCOMPOSITEPROFILEDEF(.AREA.,$,(#12),$)"
+      ";");
   for (const uint64_t id : {10u, 11u, 12u}) EXPECT_TRUE(profiles_->Read(Get(id)).area.empty());
   ASSERT_EQ(diagnostics_.all().size(), 3u);
   EXPECT_EQ(diagnostics_.all()[0].kind, DiagnosticKind::kUnsupportedGeometry);

@@ -38,7 +38,8 @@ TEST_F(ShapeReaderTest, ExtrusionWithPosition) {
 
 TEST_F(ShapeReaderTest, HalfSpaceTakesTheSideOfItsAgreement) {
   const std::string cut =
-      "#20=IFCBOOLEANCLIPPINGRESULT(.DIFFERENCE.,#10,#21);\n#21=IFCHALFSPACESOLID(#22,FLAG);\n#22=IFCPLANE(#23);\n#23=IFCAXIS2PLACEMENT3D(#14,#12,#16);\n";
+      "#20=IFCBOOLEANCLIPPINGRESULT(.DIFFERENCE.,#10,#21);\n#21=IFCHALFSPACESOLID(#22,FLAG);\n#22=IFCPLANE(#23);\n#23=IFCAXIS2PLACEMENT3D(#"
+      "14,#12,#16);\n";
   for (const auto& [flag, volume] : {std::pair(".F.", 16.0), std::pair(".T.", 8.0)}) {
     std::string text = kBox + cut;
     text.replace(text.find("FLAG"), 4, flag);
@@ -52,7 +53,8 @@ TEST_F(ShapeReaderTest, PolygonalBoundedHalfSpaceCutsOnlyInItsBoundary) {
       kBox +
           "#20=IFCBOOLEANCLIPPINGRESULT(.DIFFERENCE.,#10,#21);\n#21=IFCPOLYGONALBOUNDEDHALFSPACE(#22,.F.,#24,#30);\n#22=IFCPLANE(#23);\n"
           "#23=IFCAXIS2PLACEMENT3D(#14,#12,#16);\n#24=IFCAXIS2PLACEMENT3D(#13,#12,#16);\n#30=IFCPOLYLINE((#31,#32,#33,#34,#31));\n"
-          "#31=IFCCARTESIANPOINT((0.,-5.));\n#32=IFCCARTESIANPOINT((1.,-5.));\n#33=IFCCARTESIANPOINT((1.,5.));\n#34=IFCCARTESIANPOINT((0.,5.));",
+          "#31=IFCCARTESIANPOINT((0.,-5.));\n#32=IFCCARTESIANPOINT((1.,-5.));\n#33=IFCCARTESIANPOINT((1.,5.));\n#34=IFCCARTESIANPOINT((0.,"
+          "5.));",
       "#20", "Clipping");
   EXPECT_NEAR(VolumeOf(parts), 24 - 1 * 2 * 1, 1e-9);
 }
@@ -73,7 +75,8 @@ TEST_F(ShapeReaderTest, RevolvedTaperedAndDisk) {
                                 "#15=IFCCARTESIANPOINT((2.,0.));\n#16=IFCDIRECTION((0.,1.,0.));",
                                 "#10")),
               2 * kPi, 0.02);
-  EXPECT_NEAR(VolumeOf(ReadItem(kBox + "#20=IFCEXTRUDEDAREASOLIDTAPERED(#11,$,#12,3.,#21);\n#21=IFCRECTANGLEPROFILEDEF(.AREA.,$,$,2.,1.);", "#20", "AdvancedSweptSolid")),
+  EXPECT_NEAR(VolumeOf(ReadItem(kBox + "#20=IFCEXTRUDEDAREASOLIDTAPERED(#11,$,#12,3.,#21);\n#21=IFCRECTANGLEPROFILEDEF(.AREA.,$,$,2.,1.);",
+                                "#20", "AdvancedSweptSolid")),
               14, 1e-9);
   EXPECT_NEAR(VolumeOf(ReadItem(kBox + "#20=IFCSWEPTDISKSOLID(#21,0.1,$,$,$);\n#21=IFCPOLYLINE((#13,#14));", "#20", "AdvancedSweptSolid")),
               2 * 0.5 * 8 * std::sin(kPi / 4) * 0.01, 1e-9);
@@ -82,7 +85,8 @@ TEST_F(ShapeReaderTest, RevolvedTaperedAndDisk) {
 // A tetrahedron with one face turned the wrong way.
 TEST_F(ShapeReaderTest, BrepWithATurnedFaceIsMended) {
   const ShapeParts parts = ReadItem(
-      "#10=IFCFACETEDBREP(#11);\n#11=IFCCLOSEDSHELL((#21,#22,#23,#24));\n#12=IFCCARTESIANPOINT((0.,0.,0.));\n#13=IFCCARTESIANPOINT((1.,0.,0.));\n"
+      "#10=IFCFACETEDBREP(#11);\n#11=IFCCLOSEDSHELL((#21,#22,#23,#24));\n#12=IFCCARTESIANPOINT((0.,0.,0.));\n#13=IFCCARTESIANPOINT((1.,0.,"
+      "0.));\n"
       "#14=IFCCARTESIANPOINT((0.,1.,0.));\n#15=IFCCARTESIANPOINT((0.,0.,1.));\n"
       "#21=IFCFACE((#31));\n#22=IFCFACE((#32));\n#23=IFCFACE((#33));\n#24=IFCFACE((#34));\n"
       "#31=IFCFACEOUTERBOUND(#41,.F.);\n#32=IFCFACEOUTERBOUND(#42,.T.);\n#33=IFCFACEOUTERBOUND(#43,.T.);\n#34=IFCFACEOUTERBOUND(#44,.T.);\n"
@@ -96,27 +100,34 @@ TEST_F(ShapeReaderTest, FaceSets) {
                                 "#11=IFCCARTESIANPOINTLIST3D(((0.,0.,0.),(1.,0.,0.),(0.,1.,0.),(0.,0.,1.)));",
                                 "#10", "Tessellation")),
               1.0 / 6, 1e-12);
-  EXPECT_NEAR(VolumeOf(ReadItem("#10=IFCPOLYGONALFACESET(#11,.T.,(#21,#22,#23,#24,#25,#26),$);\n"
-                                "#11=IFCCARTESIANPOINTLIST3D(((0.,0.,0.),(1.,0.,0.),(1.,1.,0.),(0.,1.,0.),(0.,0.,2.),(1.,0.,2.),(1.,1.,2.),(0.,1.,2.)));\n"
-                                "#21=IFCINDEXEDPOLYGONALFACE((1,4,3,2));\n#22=IFCINDEXEDPOLYGONALFACE((5,6,7,8));\n#23=IFCINDEXEDPOLYGONALFACE((1,2,6,5));\n"
-                                "#24=IFCINDEXEDPOLYGONALFACE((2,3,7,6));\n#25=IFCINDEXEDPOLYGONALFACE((3,4,8,7));\n#26=IFCINDEXEDPOLYGONALFACE((4,1,5,8));",
-                                "#10", "Tessellation")),
-              2, 1e-12);
-  EXPECT_TRUE(ReadItem("#10=IFCTRIANGULATEDFACESET(#11,$,.T.,((1,3,9)),$);\n#11=IFCCARTESIANPOINTLIST3D(((0.,0.,0.),(1.,0.,0.),(0.,1.,0.)));", "#10", "Tessellation").empty());
+  EXPECT_NEAR(
+      VolumeOf(ReadItem(
+          "#10=IFCPOLYGONALFACESET(#11,.T.,(#21,#22,#23,#24,#25,#26),$);\n"
+          "#11=IFCCARTESIANPOINTLIST3D(((0.,0.,0.),(1.,0.,0.),(1.,1.,0.),(0.,1.,0.),(0.,0.,2.),(1.,0.,2.),(1.,1.,2.),(0.,1.,2.)));\n"
+          "#21=IFCINDEXEDPOLYGONALFACE((1,4,3,2));\n#22=IFCINDEXEDPOLYGONALFACE((5,6,7,8));\n#23=IFCINDEXEDPOLYGONALFACE((1,2,6,5));\n"
+          "#24=IFCINDEXEDPOLYGONALFACE((2,3,7,6));\n#25=IFCINDEXEDPOLYGONALFACE((3,4,8,7));\n#26=IFCINDEXEDPOLYGONALFACE((4,1,5,8));",
+          "#10", "Tessellation")),
+      2, 1e-12);
+  EXPECT_TRUE(
+      ReadItem("#10=IFCTRIANGULATEDFACESET(#11,$,.T.,((1,3,9)),$);\n#11=IFCCARTESIANPOINTLIST3D(((0.,0.,0.),(1.,0.,0.),(0.,1.,0.)));",
+               "#10", "Tessellation")
+          .empty());
   EXPECT_EQ(diagnostics_.all().back().kind, DiagnosticKind::kBadAttribute);
 }
 
 // A cylinder of radius 1 and height 2: two planar caps and one face over a full turn with a seam.
 TEST_F(ShapeReaderTest, AdvancedBrepWithACylinder) {
   const ShapeParts parts = ReadItem(
-      "#10=IFCADVANCEDBREP(#11);\n#11=IFCCLOSEDSHELL((#21,#22,#23));\n#12=IFCCARTESIANPOINT((1.,0.,0.));\n#13=IFCCARTESIANPOINT((1.,0.,2.));\n"
+      "#10=IFCADVANCEDBREP(#11);\n#11=IFCCLOSEDSHELL((#21,#22,#23));\n#12=IFCCARTESIANPOINT((1.,0.,0.));\n#13=IFCCARTESIANPOINT((1.,0.,2.))"
+      ";\n"
       "#14=IFCVERTEXPOINT(#12);\n#15=IFCVERTEXPOINT(#13);\n#16=IFCCARTESIANPOINT((0.,0.,0.));\n#17=IFCCARTESIANPOINT((0.,0.,2.));\n"
       "#18=IFCAXIS2PLACEMENT3D(#16,$,$);\n#19=IFCAXIS2PLACEMENT3D(#17,$,$);\n"
       "#21=IFCADVANCEDFACE((#31),#41,.F.);\n#22=IFCADVANCEDFACE((#32),#42,.T.);\n#23=IFCADVANCEDFACE((#33),#43,.T.);\n"
       "#31=IFCFACEOUTERBOUND(#34,.T.);\n#32=IFCFACEOUTERBOUND(#35,.T.);\n#33=IFCFACEOUTERBOUND(#36,.T.);\n"
       "#34=IFCEDGELOOP((#51));\n#35=IFCEDGELOOP((#52));\n#36=IFCEDGELOOP((#53,#54,#55,#56));\n#41=IFCPLANE(#18);\n#42=IFCPLANE(#19);\n"
       "#43=IFCCYLINDRICALSURFACE(#18,1.);\n#51=IFCORIENTEDEDGE(*,*,#61,.F.);\n#52=IFCORIENTEDEDGE(*,*,#62,.T.);\n"
-      "#53=IFCORIENTEDEDGE(*,*,#61,.T.);\n#54=IFCORIENTEDEDGE(*,*,#63,.T.);\n#55=IFCORIENTEDEDGE(*,*,#62,.F.);\n#56=IFCORIENTEDEDGE(*,*,#63,.F.);\n"
+      "#53=IFCORIENTEDEDGE(*,*,#61,.T.);\n#54=IFCORIENTEDEDGE(*,*,#63,.T.);\n#55=IFCORIENTEDEDGE(*,*,#62,.F.);\n#56=IFCORIENTEDEDGE(*,*,#"
+      "63,.F.);\n"
       "#61=IFCEDGECURVE(#14,#14,#71,.T.);\n#62=IFCEDGECURVE(#15,#15,#72,.T.);\n#63=IFCEDGECURVE(#14,#15,#73,.T.);\n#71=IFCCIRCLE(#18,1.);\n"
       "#72=IFCCIRCLE(#19,1.);\n#73=IFCLINE(#12,#74);\n#74=IFCVECTOR(#75,1.);\n#75=IFCDIRECTION((0.,0.,1.));",
       "#10", "AdvancedBrep");
@@ -124,12 +135,13 @@ TEST_F(ShapeReaderTest, AdvancedBrepWithACylinder) {
 }
 
 TEST_F(ShapeReaderTest, MappedItemsScaleAndKeepTheirStyle) {
-  const ShapeParts parts = ReadItem(
-      kBox +
-          "#20=IFCMAPPEDITEM(#21,#25);\n#21=IFCREPRESENTATIONMAP(#22,#23);\n#22=IFCAXIS2PLACEMENT3D(#13,$,$);\n#23=IFCSHAPEREPRESENTATION($,'Body','SweptSolid',(#10));\n"
-          "#25=IFCCARTESIANTRANSFORMATIONOPERATOR3D($,$,#14,0.5,$);\n#30=IFCSTYLEDITEM(#10,(#31),$);\n#31=IFCSURFACESTYLE('Glas',.BOTH.,());\n"
-          "#40=IFCMAPPEDITEM(#21,#25);",
-      "#20,#40", "MappedRepresentation");
+  const ShapeParts parts = ReadItem(kBox +
+                                        "#20=IFCMAPPEDITEM(#21,#25);\n#21=IFCREPRESENTATIONMAP(#22,#23);\n#22=IFCAXIS2PLACEMENT3D(#13,$,$);"
+                                        "\n#23=IFCSHAPEREPRESENTATION($,'Body','SweptSolid',(#10));\n"
+                                        "#25=IFCCARTESIANTRANSFORMATIONOPERATOR3D($,$,#14,0.5,$);\n#30=IFCSTYLEDITEM(#10,(#31),$);\n#31="
+                                        "IFCSURFACESTYLE('Glas',.BOTH.,());\n"
+                                        "#40=IFCMAPPEDITEM(#21,#25);",
+                                    "#20,#40", "MappedRepresentation");
   ASSERT_EQ(parts.size(), 2u);
   EXPECT_NEAR(VolumeOf(parts), 6, 1e-9);
   EXPECT_EQ(parts[0].look, Look::kGlass);
@@ -138,7 +150,8 @@ TEST_F(ShapeReaderTest, MappedItemsScaleAndKeepTheirStyle) {
 
 TEST_F(ShapeReaderTest, ArcsOfACurvedWallFollowIt) {
   const ShapeParts parts = ReadItem(
-      "#10=IFCEXTRUDEDAREASOLID(#11,#20,#12,3.);\n#11=IFCCIRCLEPROFILEDEF(.AREA.,$,$,2.);\n#12=IFCDIRECTION((0.,0.,1.));\n#20=IFCAXIS2PLACEMENT3D(#21,$,$);\n"
+      "#10=IFCEXTRUDEDAREASOLID(#11,#20,#12,3.);\n#11=IFCCIRCLEPROFILEDEF(.AREA.,$,$,2.);\n#12=IFCDIRECTION((0.,0.,1.));\n#20="
+      "IFCAXIS2PLACEMENT3D(#21,$,$);\n"
       "#21=IFCCARTESIANPOINT((5.,6.,0.));",
       "#10");
   ASSERT_EQ(parts[0].arcs.size(), 1u);
@@ -146,15 +159,18 @@ TEST_F(ShapeReaderTest, ArcsOfACurvedWallFollowIt) {
 }
 
 TEST_F(ShapeReaderTest, CyclesAndUnknownShapesAreDiagnosticsAndBoxesStandIn) {
-  EXPECT_TRUE(ReadItem("#20=IFCMAPPEDITEM(#21,$);\n#21=IFCREPRESENTATIONMAP($,#23);\n#23=IFCSHAPEREPRESENTATION($,'Body','MappedRepresentation',(#20));", "#20",
-                       "MappedRepresentation")
-                  .empty());
+  EXPECT_TRUE(
+      ReadItem(
+          "#20=IFCMAPPEDITEM(#21,$);\n#21=IFCREPRESENTATIONMAP($,#23);\n#23=IFCSHAPEREPRESENTATION($,'Body','MappedRepresentation',(#20));",
+          "#20", "MappedRepresentation")
+          .empty());
   EXPECT_EQ(diagnostics_.all().back().kind, DiagnosticKind::kReferenceCycle);
   EXPECT_TRUE(ReadItem("#20=IFCBOOLEANRESULT(.DIFFERENCE.,#20,#20);", "#20", "CSG").empty());
   EXPECT_EQ(diagnostics_.all().back().kind, DiagnosticKind::kReferenceCycle);
 
   Open(
-      "#10=IFCPRODUCTDEFINITIONSHAPE($,$,(#11,#12));\n#11=IFCSHAPEREPRESENTATION($,'Box','BoundingBox',(#13));\n#12=IFCSHAPEREPRESENTATION($,'Body','Brep',(#15));\n"
+      "#10=IFCPRODUCTDEFINITIONSHAPE($,$,(#11,#12));\n#11=IFCSHAPEREPRESENTATION($,'Box','BoundingBox',(#13));\n#12=IFCSHAPEREPRESENTATION("
+      "$,'Body','Brep',(#15));\n"
       "#13=IFCBOUNDINGBOX(#14,1.,2.,3.);\n#14=IFCCARTESIANPOINT((0.,0.,0.));\n#15=IFCSECTIONEDSPINE($,$,$);");
   EXPECT_NEAR(VolumeOf(shapes_->Body(Get(10))), 6, 1e-12);
   const auto& all = diagnostics_.all();

@@ -35,19 +35,22 @@ TEST(ReadUnits, SiUnitsAndPrefixes) {
 }
 
 TEST(ReadUnits, FeetInchesAndDegrees) {
-  const Units units = Read(WithUnits("(#10,#13)",
-                                     "#10=IFCCONVERSIONBASEDUNIT($,.LENGTHUNIT.,'FOOT',#11);\n#11=IFCMEASUREWITHUNIT(IFCLENGTHMEASURE(0.3048),#12);\n"
-                                     "#12=IFCSIUNIT(*,.LENGTHUNIT.,$,.METRE.);\n#13=IFCCONVERSIONBASEDUNIT($,.PLANEANGLEUNIT.,'DEGREE',#14);\n"
-                                     "#14=IFCMEASUREWITHUNIT(IFCPLANEANGLEMEASURE(0.0174532925199433),#4);"));
+  const Units units =
+      Read(WithUnits("(#10,#13)",
+                     "#10=IFCCONVERSIONBASEDUNIT($,.LENGTHUNIT.,'FOOT',#11);\n#11=IFCMEASUREWITHUNIT(IFCLENGTHMEASURE(0.3048),#12);\n"
+                     "#12=IFCSIUNIT(*,.LENGTHUNIT.,$,.METRE.);\n#13=IFCCONVERSIONBASEDUNIT($,.PLANEANGLEUNIT.,'DEGREE',#14);\n"
+                     "#14=IFCMEASUREWITHUNIT(IFCPLANEANGLEMEASURE(0.0174532925199433),#4);"));
   EXPECT_DOUBLE_EQ(units.length, 0.3048);
   EXPECT_NEAR(units.angle, std::numbers::pi / 180, 1e-12);
   // Inches converted to feet converted to millimetres.
-  EXPECT_NEAR(Read(WithUnits("(#10)",
-                             "#10=IFCCONVERSIONBASEDUNIT($,.LENGTHUNIT.,'INCH',#11);\n#11=IFCMEASUREWITHUNIT(IFCRATIOMEASURE(0.0833333333333333),#12);\n"
-                             "#12=IFCCONVERSIONBASEDUNIT($,.LENGTHUNIT.,'FOOT',#13);\n#13=IFCMEASUREWITHUNIT(IFCLENGTHMEASURE(304.8),#14);\n"
-                             "#14=IFCSIUNIT(*,.LENGTHUNIT.,.MILLI.,.METRE.);"))
-                  .length,
-              0.0254, 1e-12);
+  EXPECT_NEAR(
+      Read(WithUnits(
+               "(#10)",
+               "#10=IFCCONVERSIONBASEDUNIT($,.LENGTHUNIT.,'INCH',#11);\n#11=IFCMEASUREWITHUNIT(IFCRATIOMEASURE(0.0833333333333333),#12);\n"
+               "#12=IFCCONVERSIONBASEDUNIT($,.LENGTHUNIT.,'FOOT',#13);\n#13=IFCMEASUREWITHUNIT(IFCLENGTHMEASURE(304.8),#14);\n"
+               "#14=IFCSIUNIT(*,.LENGTHUNIT.,.MILLI.,.METRE.);"))
+          .length,
+      0.0254, 1e-12);
 }
 
 TEST(ReadUnits, MissingOrCyclicUnitsFallBackToMetres) {
@@ -55,7 +58,8 @@ TEST(ReadUnits, MissingOrCyclicUnitsFallBackToMetres) {
   EXPECT_EQ(missing.length, 1);
   ASSERT_EQ(missing.diagnostics.size(), 1u);
   EXPECT_EQ(missing.diagnostics[0].kind, DiagnosticKind::kNoLengthUnit);
-  const Units cycle = Read(WithUnits("(#10)", "#10=IFCCONVERSIONBASEDUNIT($,.LENGTHUNIT.,'X',#11);\n#11=IFCMEASUREWITHUNIT(IFCLENGTHMEASURE(2.),#10);"));
+  const Units cycle =
+      Read(WithUnits("(#10)", "#10=IFCCONVERSIONBASEDUNIT($,.LENGTHUNIT.,'X',#11);\n#11=IFCMEASUREWITHUNIT(IFCLENGTHMEASURE(2.),#10);"));
   EXPECT_EQ(cycle.length, 1);
   EXPECT_EQ(cycle.diagnostics[0].kind, DiagnosticKind::kUnitNotRead);
 }
@@ -65,7 +69,8 @@ TEST(IfcModel, RefusesOtherSchemas) {
   EXPECT_FALSE(IfcModel::Open(test::IfcText("", "AUTOMOTIVE_DESIGN"), sink));
   ASSERT_EQ(sink.all().size(), 1u);
   EXPECT_EQ(sink.all()[0].kind, DiagnosticKind::kUnknownSchema);
-  for (const char* schema : {"IFC2X_FINAL", "IFC2X3", "IFC4", "IFC4X3_ADD2"}) EXPECT_TRUE(IfcModel::Open(test::IfcText("", schema), sink)) << schema;
+  for (const char* schema : {"IFC2X_FINAL", "IFC2X3", "IFC4", "IFC4X3_ADD2"})
+    EXPECT_TRUE(IfcModel::Open(test::IfcText("", schema), sink)) << schema;
 }
 
 TEST(IfcModel, MissingReferencesAreReportedOnce) {

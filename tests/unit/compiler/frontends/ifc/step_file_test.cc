@@ -45,7 +45,8 @@ TEST_F(StepFileTest, FindsInstancesTypesAndLines) {
 }
 
 TEST_F(StepFileTest, StringsAndCommentsHideWhatLooksLikeInstances) {
-  const StepFile& file = Index(test::IfcText("#10=IFCLABELED('; #99=IFCWALL(', 'it''s;');\n/* #98=IFCWALL('c'); */\n#11=IFCWALL(/* ; */ 'x');"));
+  const StepFile& file =
+      Index(test::IfcText("#10=IFCLABELED('; #99=IFCWALL(', 'it''s;');\n/* #98=IFCWALL('c'); */\n#11=IFCWALL(/* ; */ 'x');"));
   EXPECT_TRUE(diagnostics_.all().empty());
   EXPECT_EQ(file.Find(99), StepFile::kNone);
   EXPECT_EQ(file.Find(98), StepFile::kNone);
@@ -103,7 +104,8 @@ TEST_F(StepFileTest, MissingQuoteLosesOneInstanceAtMost) {
 }
 
 TEST_F(StepFileTest, GarbageBetweenInstancesIsPassedOver) {
-  const StepFile& file = Index(test::IfcText("#10=IFCWALL('a');\n\x01\x02garbage;\n#=IFCWALL('x');\n#11 IFCWALL('b');\n#12=IFCWALL;\n#13=IFCWALL('d');"));
+  const StepFile& file =
+      Index(test::IfcText("#10=IFCWALL('a');\n\x01\x02garbage;\n#=IFCWALL('x');\n#11 IFCWALL('b');\n#12=IFCWALL;\n#13=IFCWALL('d');"));
   EXPECT_NE(file.Find(10), StepFile::kNone);
   EXPECT_NE(file.Find(13), StepFile::kNone);
   EXPECT_EQ(file.Find(12), StepFile::kNone);
@@ -132,7 +134,8 @@ TEST_F(StepFileTest, LinesOfFilesWithCarriageReturnsOnly) {
 
 // Any damage to a file is survived: bytes changed, cut out and doubled.
 TEST_F(StepFileTest, SurvivesRandomDamage) {
-  const std::string whole = test::IfcText("#10=IFCWALL('a''b',#11,(1.,2.),IFCLABEL('c'),.T.);\n/* c */#11=IFCDIRECTION((0.,1.));\n#12=IFCX((((#10))),$,*);");
+  const std::string whole =
+      test::IfcText("#10=IFCWALL('a''b',#11,(1.,2.),IFCLABEL('c'),.T.);\n/* c */#11=IFCDIRECTION((0.,1.));\n#12=IFCX((((#10))),$,*);");
   std::mt19937_64 rng(3);
   for (int round = 0; round < 3000; ++round) {
     std::string text = whole;

@@ -24,8 +24,8 @@ class Parsed {
 TEST(StepValue, TellsKindsApart) {
   const Parsed a("($,*,12,-1.5E3,'x',.T.,#42,(1,2),IFCLABEL('y'),\"0F\",!)");
   ASSERT_EQ(a.size(), 11u);
-  const Kind expected[] = {Kind::kNull, Kind::kDerived,   Kind::kInteger, Kind::kReal,  Kind::kString, Kind::kEnumeration,
-                           Kind::kReference, Kind::kList, Kind::kTyped,   Kind::kBinary, Kind::kBad};
+  const Kind expected[] = {Kind::kNull,      Kind::kDerived, Kind::kInteger, Kind::kReal,   Kind::kString, Kind::kEnumeration,
+                           Kind::kReference, Kind::kList,    Kind::kTyped,   Kind::kBinary, Kind::kBad};
   for (size_t i = 0; i < a.size(); ++i) EXPECT_EQ(a[i].kind(), expected[i]) << i;
   EXPECT_EQ(a[11].kind(), Kind::kNone);
   EXPECT_TRUE(a[0].is_null());
@@ -120,7 +120,7 @@ TEST(StepValue, AbsurdNestingCostsNoStack) {
 
 TEST(StepArguments, KeepsTheFirstOnesOfTooMany) {
   std::string text = "(0";
-  for (int i = 1; i < 100; ++i) text += "," + std::to_string(i);
+  for (int i = 1; i < 100; ++i) text.append(",").append(std::to_string(i));
   const Parsed a(text + ")");
   EXPECT_EQ(a.size(), StepArguments::kMax);
   EXPECT_EQ(a[StepArguments::kMax - 1].Integer(), static_cast<int64_t>(StepArguments::kMax) - 1);

@@ -50,9 +50,7 @@ std::string Notes(const RunInfo& info, const Deviations& deviations) {
     out += fmt::format("<p class=\"note bad\">The robot was not localized in this plan{}{}. No deviations can be stated.</p>\n",
                        info.last_reason.empty() ? "" : ": ", EscapeXml(info.last_reason));
   }
-  if (!deviations.gauge.empty()) {
-    out += fmt::format("<p class=\"note\">Deviations are relative to each other; what counts as standing still: {}.</p>\n", EscapeXml(deviations.gauge));
-  }
+  if (!deviations.gauge.empty()) out += fmt::format("<p class=\"note\">{}</p>\n", EscapeXml(deviations.gauge));
   return out;
 }
 
@@ -122,11 +120,13 @@ std::string WallTable(const AGraph& plan, const std::vector<WallRow>& rows) {
       body += WallRowHtml(plan, row);
     }
   }
+  const std::string rest =
+      unobserved == 0 ? "" : fmt::format("<p class=\"note\">Walls that were not observed well enough to judge: {} of {}.</p>\n", unobserved, rows.size());
   return fmt::format(
       "<h2>Walls</h2>\n<div class=\"scroll\"><table><thead><tr><th class=\"t\"></th><th class=\"t\">wall</th><th class=\"t\">storey</th><th class=\"t\">"
       "verdict</th><th>displacement &plusmn; &sigma;, cm</th><th>turn &plusmn; &sigma;, &deg;</th><th>P(deviated)</th><th>seen, m&sup2;</th><th>points</th>"
-      "</tr></thead><tbody>\n{}</tbody></table></div>\n<p class=\"note\">{} further walls were not observed well enough to judge.</p>\n",
-      body, unobserved);
+      "</tr></thead><tbody>\n{}</tbody></table></div>\n{}",
+      body, rest);
 }
 
 std::string RoomTable(const AGraph& plan, const Deviations& deviations) {

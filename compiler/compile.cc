@@ -51,8 +51,10 @@ std::optional<AGraph> Run(const std::string& path, const CompileOptions& options
 }  // namespace
 
 std::string CompileOptions::Check() const {
-  if (!(section_height_m > 0 && section_height_m < 10)) return fmt::format("CompileOptions.section_height_m = {}; must be in (0, 10)", section_height_m);
-  if (!(snap_radius_m > 0 && snap_radius_m <= 0.05)) return fmt::format("CompileOptions.snap_radius_m = {}; must be in (0, 0.05]", snap_radius_m);
+  if (!(section_height_m > 0 && section_height_m < 10))
+    return fmt::format("CompileOptions.section_height_m = {}; must be in (0, 10)", section_height_m);
+  if (!(snap_radius_m > 0 && snap_radius_m <= 0.05))
+    return fmt::format("CompileOptions.snap_radius_m = {}; must be in (0, 0.05]", snap_radius_m);
   if (!(min_room_area_m2 >= 0)) return fmt::format("CompileOptions.min_room_area_m2 = {}; must not be negative", min_room_area_m2);
   return {};
 }

@@ -11,10 +11,10 @@
 namespace plumb::compiler {
 namespace {
 
-constexpr double kOnBoundary_m = 0.005;      // rounding and snapping of the planar map
-constexpr double kProbe_m = 0.01;            // step off a surface to see what is before it
-constexpr double kAreaShare = 0.01;          // by which a stated area may differ, and two rooms overlap
-constexpr double kOpeningSlack_m = 0.3;      // of an opening's middle to its wall, beyond the thickness
+constexpr double kOnBoundary_m = 0.005;  // rounding and snapping of the planar map
+constexpr double kProbe_m = 0.01;        // step off a surface to see what is before it
+constexpr double kAreaShare = 0.01;      // by which a stated area may differ, and two rooms overlap
+constexpr double kOpeningSlack_m = 0.3;  // of an opening's middle to its wall, beyond the thickness
 
 std::vector<Ring> RingsOf(const Room& room) {
   std::vector<Ring> out = {room.polygon};
@@ -74,7 +74,8 @@ class Validator {
       CheckClosed(i);
       if (r.surfaces.empty()) Emit(DiagnosticKind::kRoomWithoutSurfaces, r.guid, fmt::format("{} has no wall surface", NameOf(i)));
       if (r.ceiling_z_m <= r.floor_z_m) {
-        Emit(DiagnosticKind::kRoomUpsideDown, r.guid, fmt::format("{} has its floor at {:.3f} m and its ceiling at {:.3f} m", NameOf(i), r.floor_z_m, r.ceiling_z_m));
+        Emit(DiagnosticKind::kRoomUpsideDown, r.guid,
+             fmt::format("{} has its floor at {:.3f} m and its ceiling at {:.3f} m", NameOf(i), r.floor_z_m, r.ceiling_z_m));
       }
       if (!entered[i]) Emit(DiagnosticKind::kRoomWithoutDoorway, r.guid, fmt::format("no doorway leads into {}", NameOf(i)));
       for (size_t j = 0; j < i; ++j) CheckApart(j, i);
@@ -90,10 +91,13 @@ class Validator {
       simple &= ring.size() >= 3 && !SelfIntersects(ring);
       if (ring.size() >= 3) area += SignedArea(ring);
     }
-    if (!simple) Emit(DiagnosticKind::kRoomUnclosed, r.guid, fmt::format("a boundary of {} has fewer than 3 corners or crosses itself", NameOf(i)));
-    else if (area <= 0) Emit(DiagnosticKind::kRoomUnclosed, r.guid, fmt::format("the boundary of {} encloses {:.3f} m2", NameOf(i), area));
+    if (!simple)
+      Emit(DiagnosticKind::kRoomUnclosed, r.guid, fmt::format("a boundary of {} has fewer than 3 corners or crosses itself", NameOf(i)));
+    else if (area <= 0)
+      Emit(DiagnosticKind::kRoomUnclosed, r.guid, fmt::format("the boundary of {} encloses {:.3f} m2", NameOf(i), area));
     else if (std::abs(area - r.area_m2) > kAreaShare * area) {
-      Emit(DiagnosticKind::kRoomUnclosed, r.guid, fmt::format("the boundary of {} encloses {:.3f} m2, its area is given as {:.3f} m2", NameOf(i), area, r.area_m2));
+      Emit(DiagnosticKind::kRoomUnclosed, r.guid,
+           fmt::format("the boundary of {} encloses {:.3f} m2, its area is given as {:.3f} m2", NameOf(i), area, r.area_m2));
     }
   }
 
@@ -115,15 +119,17 @@ class Validator {
     for (size_t i = 0; i < graph_.surfaces.size(); ++i) {
       const Surface& s = graph_.surfaces[i];
       const std::string& guid = graph_.walls[s.wall.index()].guid;
-      if (claimed[i] != s.room) Emit(DiagnosticKind::kSurfaceUnclaimed, guid, fmt::format("surface {} names another room than the one that lists it", i));
+      if (claimed[i] != s.room)
+        Emit(DiagnosticKind::kSurfaceUnclaimed, guid, fmt::format("surface {} names another room than the one that lists it", i));
       const Eigen::Vector2d before = s.midpoint() + kProbe_m * s.normal.head<2>();
       if (s.room.valid()) {
         const std::vector<Ring> rings = RingsOf(graph_.rooms[s.room.index()]);
         const double off = std::max(DistanceToRings(s.start, rings), DistanceToRings(s.end, rings));
         const bool faces_in = s.arc || WindingNumber(rings, before) != 0;
         if (off > kOnBoundary_m || !faces_in) {
-          Emit(DiagnosticKind::kSurfaceOffRoom, guid, fmt::format("surface {} lies {:.3f} m off the boundary of {}{}", i, off, NameOf(s.room.index()),
-                                                                  faces_in ? "" : " and faces out of it"));
+          Emit(DiagnosticKind::kSurfaceOffRoom, guid,
+               fmt::format("surface {} lies {:.3f} m off the boundary of {}{}", i, off, NameOf(s.room.index()),
+                           faces_in ? "" : " and faces out of it"));
         }
         continue;
       }
@@ -152,18 +158,22 @@ class Validator {
       Emit(DiagnosticKind::kOpeningOffWall, node.guid, fmt::format("{} {} `{}` has no wall", what, i, node.name));
       return;
     }
-    const double distance = DistanceToWall(node.wall, node.position.template head<2>()), thickness = graph_.walls[node.wall.index()].thickness_m;
+    const double distance = DistanceToWall(node.wall, node.position.template head<2>()),
+                 thickness = graph_.walls[node.wall.index()].thickness_m;
     if (distance <= thickness + kOpeningSlack_m) return;
-    Emit(DiagnosticKind::kOpeningOffWall, node.guid, fmt::format("{} {} `{}` lies {:.3f} m off its wall, which is {:.3f} m thick", what, i, node.name, distance, thickness));
+    Emit(DiagnosticKind::kOpeningOffWall, node.guid,
+         fmt::format("{} {} `{}` lies {:.3f} m off its wall, which is {:.3f} m thick", what, i, node.name, distance, thickness));
   }
 
   void CheckOpenings() {
     for (size_t i = 0; i < graph_.doorways.size(); ++i) {
       const Doorway& d = graph_.doorways[i];
       CheckOnWall("doorway", i, d);
-      if (!d.room_a.valid()) Emit(DiagnosticKind::kDoorwayWithoutRoom, d.guid, fmt::format("doorway {} `{}` leads into no room", i, d.name));
+      if (!d.room_a.valid())
+        Emit(DiagnosticKind::kDoorwayWithoutRoom, d.guid, fmt::format("doorway {} `{}` leads into no room", i, d.name));
       if (d.room_a.valid() && d.room_a == d.room_b) {
-        Emit(DiagnosticKind::kDoorwayWithoutRoom, d.guid, fmt::format("doorway {} `{}` has {} on both sides", i, d.name, NameOf(d.room_a.index())));
+        Emit(DiagnosticKind::kDoorwayWithoutRoom, d.guid,
+             fmt::format("doorway {} `{}` has {} on both sides", i, d.name, NameOf(d.room_a.index())));
       }
     }
     for (size_t i = 0; i < graph_.windows.size(); ++i) CheckOnWall("window", i, graph_.windows[i]);
@@ -173,7 +183,9 @@ class Validator {
     std::vector<bool> seen(graph_.walls.size(), false);
     for (const Surface& s : graph_.surfaces) seen[s.wall.index()] = true;
     for (size_t w = 0; w < graph_.walls.size(); ++w) {
-      if (!seen[w]) Emit(DiagnosticKind::kWallWithoutSurfaces, graph_.walls[w].guid, fmt::format("wall {} `{}` bounds no room and no outside", w, graph_.walls[w].name));
+      if (!seen[w])
+        Emit(DiagnosticKind::kWallWithoutSurfaces, graph_.walls[w].guid,
+             fmt::format("wall {} `{}` bounds no room and no outside", w, graph_.walls[w].name));
     }
   }
 

@@ -14,7 +14,8 @@ constexpr double kFar_m = 1000;
 
 std::array<uint32_t, 3> BitsOf(const Eigen::Vector3f& v) {
   const Eigen::Vector3f positive_zero = v + Eigen::Vector3f::Zero();  // -0 and 0 are one point
-  return {std::bit_cast<uint32_t>(positive_zero.x()), std::bit_cast<uint32_t>(positive_zero.y()), std::bit_cast<uint32_t>(positive_zero.z())};
+  return {std::bit_cast<uint32_t>(positive_zero.x()), std::bit_cast<uint32_t>(positive_zero.y()),
+          std::bit_cast<uint32_t>(positive_zero.z())};
 }
 
 Eigen::Vector3d ShiftOf(const PlanIr& plan) {

@@ -9,8 +9,9 @@
 
 namespace plumb::compiler {
 
-// Fills graph.mesh with the bodies of plan.elements; triangle.element is the position there. Vertices that fall on the same single-precision
-// point are one, degenerate triangles go. Sets graph.origin: the plan's, moved to the middle of the triangles if those lie far from it.
+// Fills graph.mesh with the bodies of plan.elements; triangle.element is the position there. Vertices that fall on the same
+// single-precision point are one, degenerate triangles go. Sets graph.origin: the plan's, moved to the middle of the triangles if those lie
+// far from it.
 void EmitMesh(const PlanIr& plan, AGraph& graph);
 
 // Adds the plan's origin to every pose, polygon and plane: from PlanIr's frame to the plan frame. graph.mesh stays.

@@ -35,7 +35,7 @@ struct Footprint {
   uint32_t wall = kNoIndex;     // in FloorIr::walls; none for columns
   uint32_t element = kNoIndex;  // in PlanIr::elements (of a wall: its first)
   bool bounds_rooms = true;     // part of the planar map. False for what a person sees or walks over or under: parapets, hanging walls
-  std::vector<Ring> rings;      // closed; outer ones counter-clockwise, holes clockwise; may overlap each other (winding number != 0 is inside)
+  std::vector<Ring> rings;  // closed; outer ones counter-clockwise, holes clockwise; may overlap each other (winding number != 0 is inside)
 };
 
 // The outline of a space that shares an open plan with others: where no wall divides them, this does.
@@ -52,11 +52,11 @@ struct BoundaryEdge {
 };
 
 struct FloorFace {
-  std::vector<uint32_t> cover;                    // footprints over it, ascending; none: free space
-  uint32_t space = kNoIndex;                      // of a divided open plan: the space that this part belongs to
-  std::vector<BoundaryEdge> outer;                // counter-clockwise; empty for the unbounded face
-  std::vector<std::vector<BoundaryEdge>> holes;   // clockwise
-  double area_m2 = 0;                             // holes taken off; 0 for the unbounded face
+  std::vector<uint32_t> cover;                   // footprints over it, ascending; none: free space
+  uint32_t space = kNoIndex;                     // of a divided open plan: the space that this part belongs to
+  std::vector<BoundaryEdge> outer;               // counter-clockwise; empty for the unbounded face
+  std::vector<std::vector<BoundaryEdge>> holes;  // clockwise
+  double area_m2 = 0;                            // holes taken off; 0 for the unbounded face
   [[nodiscard]] bool bounded() const { return !outer.empty(); }
 };
 

@@ -27,25 +27,25 @@ struct PlanElement {
   Material material = Material::kOpaque;
   std::string guid, name, type;
   SourceLocation location;
-  uint32_t storey = kNoIndex;     // as contained in the source; none where it says nothing
+  uint32_t storey = kNoIndex;  // as contained in the source; none where it says nothing
   // As a ray sees it: openings cut. Solid parts of glass (panes) are elements of their own with the same guid; those of a wall or curtain
   // wall that is not all of glass are of kind kWindow, so that one wall stays one element. Empty for a door or window drawn without a body.
   Solid body;
   // Before openings are cut, closed; only for walls, curtain walls and columns. Its horizontal sections are the wall's footprint. It may be
   // several closed solids that touch or overlap (layers, parts, the doors in a curtain wall): the footprint is their union.
   Solid uncut;
-  std::optional<double> thickness_m;  // where the source states it (material layers)
+  std::optional<double> thickness_m;                                // where the source states it (material layers)
   std::optional<std::pair<Eigen::Vector2d, Eigen::Vector2d>> axis;  // where the source has one (Axis representation)
-  std::vector<Arc> arcs;  // exact arcs of the footprint where the source has them (curved walls)
-  bool external = false;  // stated by the source (Pset_WallCommon.IsExternal)
+  std::vector<Arc> arcs;                                            // exact arcs of the footprint where the source has them (curved walls)
+  bool external = false;                                            // stated by the source (Pset_WallCommon.IsExternal)
 };
 
 struct PlanOpening {
   std::string guid, name;
   SourceLocation location;
-  uint32_t wall = kNoIndex;    // element that it voids
-  uint32_t filling = kNoIndex; // door or window element that fills it; none: a passage if it reaches the floor
-  Solid body;                  // the void; empty for a door without an opening chain (then the filling's box stands for it)
+  uint32_t wall = kNoIndex;                 // element that it voids
+  uint32_t filling = kNoIndex;              // door or window element that fills it; none: a passage if it reaches the floor
+  Solid body;                               // the void; empty for a door without an opening chain (then the filling's box stands for it)
   std::optional<double> width_m, height_m;  // OverallWidth and OverallHeight of the filling where stated
 };
 

@@ -93,7 +93,8 @@ Json FromElement(const PlanElement& e) {
   PutOptional(out, "thickness_m", e.thickness_m);
   if (e.axis) out["axis"] = Json::array({FromVector(e.axis->first), FromVector(e.axis->second)});
   for (const Arc& arc : e.arcs) {
-    out["arcs"].push_back({{"center", FromVector(arc.center)}, {"radius_m", arc.radius_m}, {"start_rad", arc.start_rad}, {"sweep_rad", arc.sweep_rad}});
+    out["arcs"].push_back(
+        {{"center", FromVector(arc.center)}, {"radius_m", arc.radius_m}, {"start_rad", arc.start_rad}, {"sweep_rad", arc.sweep_rad}});
   }
   Put(out, "external", e.external);
   return out;

@@ -66,7 +66,8 @@ void VerifyBoundary(Faults& faults, const Floor& floor, size_t face, const std::
     faults.Require(edge.to == ring[(k + 1) % ring.size()].from, "face {}: its boundary is not closed", face);
     faults.Require(edge.face < floor.faces.size(), "face {}: neighbour {} of {}", face, edge.face, floor.faces.size());
     faults.Require(!edge.footprints.empty() || !floor.dividers.empty(), "face {}: an edge belongs to no footprint", face);
-    for (uint32_t f : edge.footprints) faults.Require(f < floor.footprints.size(), "face {}: footprint {} of {}", face, f, floor.footprints.size());
+    for (uint32_t f : edge.footprints)
+      faults.Require(f < floor.footprints.size(), "face {}: footprint {} of {}", face, f, floor.footprints.size());
   }
 }
 
@@ -77,14 +78,17 @@ void VerifyFloor(Faults& faults, const FloorIr& ir, const PlanIr& plan, const Fl
   for (size_t i = 0; i < floor.footprints.size(); ++i) {
     const Footprint& f = floor.footprints[i];
     faults.Require(f.element < plan.elements.size(), "footprint {}: element {} of {}", i, f.element, plan.elements.size());
-    faults.Require((f.kind == FootprintKind::kColumn) == (f.wall == kNoIndex), "footprint {}: a wall without index or a column with one", i);
+    faults.Require((f.kind == FootprintKind::kColumn) == (f.wall == kNoIndex), "footprint {}: a wall without index or a column with one",
+                   i);
     faults.Require(InRangeOrNone(f.wall, ir.walls.size()), "footprint {}: wall {} of {}", i, f.wall, ir.walls.size());
     for (const Ring& ring : f.rings) faults.Require(ring.size() >= 3, "footprint {}: a ring has {} points", i, ring.size());
   }
   for (size_t i = 0; i < floor.dividers.size(); ++i) {
-    faults.Require(floor.dividers[i].space < plan.spaces.size(), "divider {}: space {} of {}", i, floor.dividers[i].space, plan.spaces.size());
+    faults.Require(floor.dividers[i].space < plan.spaces.size(), "divider {}: space {} of {}", i, floor.dividers[i].space,
+                   plan.spaces.size());
   }
-  faults.Require(!floor.cut_heights_m.empty() && std::is_sorted(floor.cut_heights_m.begin(), floor.cut_heights_m.end()), "the heights of the cuts are not sorted");
+  faults.Require(!floor.cut_heights_m.empty() && std::is_sorted(floor.cut_heights_m.begin(), floor.cut_heights_m.end()),
+                 "the heights of the cuts are not sorted");
   for (const auto& v : floor.vertices) faults.Require(v.allFinite(), "a vertex of the map is not finite");
   faults.Require(!floor.faces.empty(), "the map has no faces");
   for (size_t i = 0; i < floor.faces.size(); ++i) {
@@ -105,12 +109,14 @@ std::vector<std::string> VerifyPlanIr(const PlanIr& plan) {
   faults.Require(plan.origin.allFinite(), "the origin is not finite");
   for (size_t i = 0; i < plan.storeys.size(); ++i) {
     faults.Require(std::isfinite(plan.storeys[i].elevation_m), "storey {}: its elevation is not finite", i);
-    faults.Require(i == 0 || plan.storeys[i - 1].elevation_m <= plan.storeys[i].elevation_m, "storey {}: storeys are not sorted by elevation", i);
+    faults.Require(i == 0 || plan.storeys[i - 1].elevation_m <= plan.storeys[i].elevation_m,
+                   "storey {}: storeys are not sorted by elevation", i);
   }
   for (size_t i = 0; i < plan.elements.size(); ++i) VerifyElement(faults, plan, i);
   for (size_t i = 0; i < plan.openings.size(); ++i) VerifyOpening(faults, plan, i);
   for (size_t i = 0; i < plan.spaces.size(); ++i) {
-    faults.Require(InRangeOrNone(plan.spaces[i].storey, plan.storeys.size()), "space {}: storey {} of {}", i, plan.spaces[i].storey, plan.storeys.size());
+    faults.Require(InRangeOrNone(plan.spaces[i].storey, plan.storeys.size()), "space {}: storey {} of {}", i, plan.spaces[i].storey,
+                   plan.storeys.size());
     VerifySolid(faults, "space", i, "body", plan.spaces[i].body);
   }
   return faults.Take();

@@ -27,7 +27,8 @@ void AddMissingStorey(PlanIr& plan, DiagnosticSink& sink) {
   PlanStorey storey;
   storey.name = "Storey";
   storey.elevation_m = std::isfinite(lowest_wall) ? lowest_wall : std::isfinite(lowest) ? lowest : 0.0;
-  sink.Emit(DiagnosticKind::kStoreyMissing, {}, fmt::format("the plan has no storey; one at {:.3f} m is assumed", storey.elevation_m + plan.origin.z()));
+  sink.Emit(DiagnosticKind::kStoreyMissing, {},
+            fmt::format("the plan has no storey; one at {:.3f} m is assumed", storey.elevation_m + plan.origin.z()));
   plan.storeys.push_back(storey);
 }
 
@@ -77,7 +78,8 @@ void AssignStoreys(PlanIr& plan, const StoreyOptions& options, DiagnosticSink& s
     if (std::max(below, above) <= options.containment_slack_m) continue;
     sink.Emit(DiagnosticKind::kElementInWrongStorey, e.location,
               fmt::format("{} is contained in storey `{}` but lies {:.2f} m {} it; it counts to `{}`", e.location.ToString(),
-                          plan.storeys[e.storey].name, std::max(below, above), below > above ? "below" : "above", plan.storeys[by_geometry].name));
+                          plan.storeys[e.storey].name, std::max(below, above), below > above ? "below" : "above",
+                          plan.storeys[by_geometry].name));
     e.storey = by_geometry;
   }
   for (PlanSpace& s : plan.spaces) {

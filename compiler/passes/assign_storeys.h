@@ -9,8 +9,8 @@
 namespace plumb::compiler {
 
 struct StoreyOptions {
-  double min_storey_height_m = 1.5;   // storeys closer than this to the one below share its map (landings, split levels)
-  double containment_slack_m = 1.0;   // an element this far outside its storey's band is contained in the wrong one
+  double min_storey_height_m = 1.5;  // storeys closer than this to the one below share its map (landings, split levels)
+  double containment_slack_m = 1.0;  // an element this far outside its storey's band is contained in the wrong one
   [[nodiscard]] std::string Check() const;
 };
 

@@ -19,7 +19,8 @@ bool Passes(const std::vector<std::string>& faults, const char* ir, DiagnosticSi
 
 void AddStoreys(const PlanIr& plan, const FloorIr& floors, AGraph& graph) {
   for (const PlanStorey& s : plan.storeys) graph.storeys.push_back({s.guid, s.name, s.elevation_m, 0});
-  for (size_t s = 0; s + 1 < graph.storeys.size(); ++s) graph.storeys[s].height_m = graph.storeys[s + 1].elevation_m - graph.storeys[s].elevation_m;
+  for (size_t s = 0; s + 1 < graph.storeys.size(); ++s)
+    graph.storeys[s].height_m = graph.storeys[s + 1].elevation_m - graph.storeys[s].elevation_m;
   graph.storeys.back().height_m = floors.floors.back().level.top_z_m - graph.storeys.back().elevation_m;
 }
 
@@ -43,7 +44,8 @@ void AddColumns(const PlanIr& plan, const FloorIr& floors, AGraph& graph) {
       out.guid = e.guid;
       out.name = e.name;
       out.storey = StoreyId(std::clamp(e.storey, floor.level.first_storey, floor.level.last_storey));
-      out.outline = *std::max_element(f.rings.begin(), f.rings.end(), [](const Ring& a, const Ring& b) { return SignedArea(a) < SignedArea(b); });
+      out.outline =
+          *std::max_element(f.rings.begin(), f.rings.end(), [](const Ring& a, const Ring& b) { return SignedArea(a) < SignedArea(b); });
       const Eigen::AlignedBox3d box = Bounds(e.uncut.empty() ? e.body : e.uncut);
       out.z_min_m = box.min().z();
       out.z_max_m = box.max().z();
@@ -80,9 +82,10 @@ void AddElements(const PlanIr& plan, const FloorIr& floors, const OpeningElement
 }  // namespace
 
 std::string PassOptions::Check() const {
-  if (!(section_height_m > 0 && section_height_m < 10)) return fmt::format("PassOptions.section_height_m = {}; must be in (0, 10)", section_height_m);
-  for (const std::string& fault : {storeys.Check(), footprints.Check(), planar_map.Check(), division.Check(), rooms.Check(), naming.Check(), surfaces.Check(),
-                                   hosting.Check(), doorways.Check()}) {
+  if (!(section_height_m > 0 && section_height_m < 10))
+    return fmt::format("PassOptions.section_height_m = {}; must be in (0, 10)", section_height_m);
+  for (const std::string& fault : {storeys.Check(), footprints.Check(), planar_map.Check(), division.Check(), rooms.Check(), naming.Check(),
+                                   surfaces.Check(), hosting.Check(), doorways.Check()}) {
     if (!fault.empty()) return fault;
   }
   return {};

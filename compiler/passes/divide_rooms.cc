@@ -16,7 +16,17 @@ struct Outline {
   uint32_t space;
   std::vector<Ring> rings;
   double area_m2;
+  double free_m2;  // without what lies under walls: some are drawn to the middle of the walls
 };
+
+double FreeArea(const std::vector<Ring>& rings, double area_m2, const Floor& floor) {
+  const Eigen::AlignedBox2d box = BoundingBox(rings);
+  std::vector<Ring> walls;
+  for (const Footprint& f : floor.footprints) {
+    if (f.bounds_rooms && box.intersects(BoundingBox(f.rings))) walls.insert(walls.end(), f.rings.begin(), f.rings.end());
+  }
+  return area_m2 - OverlapArea(rings, walls);
+}
 
 // Of the spaces within the face those that do not overlap: smaller ones first, so that zones of several spaces drop out.
 std::vector<Outline> PartsOf(const std::vector<Ring>& face, const std::vector<Outline>& outlines, const DivideOptions& options) {
@@ -24,7 +34,7 @@ std::vector<Outline> PartsOf(const std::vector<Ring>& face, const std::vector<Ou
   const Eigen::AlignedBox2d box = BoundingBox(face);
   for (const Outline& o : outlines) {
     if (o.area_m2 < options.min_area_m2 || !box.intersects(BoundingBox(o.rings))) continue;
-    if (OverlapArea(face, o.rings) >= options.min_inside_share * o.area_m2) inside.push_back(o);
+    if (OverlapArea(face, o.rings) >= options.min_inside_share * o.free_m2) inside.push_back(o);
   }
   std::stable_sort(inside.begin(), inside.end(), [](const Outline& a, const Outline& b) { return a.area_m2 < b.area_m2; });
   std::vector<Outline> out;
@@ -40,8 +50,10 @@ std::vector<Outline> PartsOf(const std::vector<Ring>& face, const std::vector<Ou
 }  // namespace
 
 std::string DivideOptions::Check() const {
-  if (!(min_inside_share > 0.5 && min_inside_share <= 1)) return fmt::format("DivideOptions.min_inside_share = {}; must be in (0.5, 1]", min_inside_share);
-  if (!(max_overlap_share >= 0 && max_overlap_share < 1)) return fmt::format("DivideOptions.max_overlap_share = {}; must be in [0, 1)", max_overlap_share);
+  if (!(min_inside_share > 0.5 && min_inside_share <= 1))
+    return fmt::format("DivideOptions.min_inside_share = {}; must be in (0.5, 1]", min_inside_share);
+  if (!(max_overlap_share >= 0 && max_overlap_share < 1))
+    return fmt::format("DivideOptions.max_overlap_share = {}; must be in [0, 1)", max_overlap_share);
   if (!(min_area_m2 >= 0)) return fmt::format("DivideOptions.min_area_m2 = {}; must not be negative", min_area_m2);
   return {};
 }
@@ -68,13 +80,14 @@ size_t FloorOfStorey(const FloorIr& floors, uint32_t storey) {
   return floors.floors.size() - 1;
 }
 
-Expected<void> DivideRooms(const PlanIr& plan, const DivideOptions& options, const PlanarMapOptions& map_options, FloorIr& floors, DiagnosticSink& sink) {
+Expected<void> DivideRooms(const PlanIr& plan, const DivideOptions& options, const PlanarMapOptions& map_options, FloorIr& floors,
+                           DiagnosticSink& sink) {
   std::vector<std::vector<Outline>> outlines(floors.floors.size());
   for (uint32_t s = 0; s < plan.spaces.size(); ++s) {
     const size_t f = FloorOfStorey(floors, plan.spaces[s].storey);
     std::vector<Ring> rings = SpaceOutline(plan.spaces[s], floors.floors[f]);
-    const double area = RegionArea(rings);
-    outlines[f].push_back({s, std::move(rings), area});
+    const double area = RegionArea(rings), free = FreeArea(rings, area, floors.floors[f]);
+    outlines[f].push_back({s, std::move(rings), area, free});
   }
   for (size_t f = 0; f < floors.floors.size(); ++f) {
     Floor& floor = floors.floors[f];
@@ -85,8 +98,8 @@ Expected<void> DivideRooms(const PlanIr& plan, const DivideOptions& options, con
       for (Outline& part : parts) {
         const PlanSpace& space = plan.spaces[part.space];
         sink.Emit(DiagnosticKind::kSpaceWithinRoom, space.location,
-                  fmt::format("no walls divide space `{}` ({:.2f} m2) from the rest of an open plan of {:.2f} m2; its own outline does", space.name,
-                              part.area_m2, face.area_m2));
+                  fmt::format("no walls divide space `{}` ({:.2f} m2) from the rest of an open plan of {:.2f} m2; its own outline does",
+                              space.name, part.area_m2, face.area_m2));
         floor.dividers.push_back({part.space, std::move(part.rings)});
       }
     }
@@ -113,7 +126,8 @@ void AddOpenBoundaries(const FloorIr& floors, const std::vector<std::vector<Room
             continue;
           }
           const Eigen::Vector2d &from = floor.vertices[edge.from], &to = floor.vertices[edge.to];
-          if (extends && graph.open_boundaries.back().room_b == other && DistanceToSegment(from, graph.open_boundaries.back().start, to) <= kCollinear_m) {
+          if (extends && graph.open_boundaries.back().room_b == other &&
+              DistanceToSegment(from, graph.open_boundaries.back().start, to) <= kCollinear_m) {
             graph.open_boundaries.back().end = to;
           } else {
             graph.open_boundaries.push_back({graph.rooms[room.index()].storey, room, other, from, to});

@@ -9,7 +9,7 @@
 namespace plumb::compiler {
 
 struct DivideOptions {
-  double min_inside_share = 0.9;   // of a space that lies within the open plan, for the space to divide it
+  double min_inside_share = 0.9;   // of a space's area beside walls that lies within the open plan, for the space to divide it
   double max_overlap_share = 0.1;  // of the smaller of two spaces; a space that overlaps others by more is a zone of several
   double min_area_m2 = 1.0;        // smaller spaces divide nothing
   [[nodiscard]] std::string Check() const;
@@ -22,8 +22,8 @@ struct DivideOptions {
 [[nodiscard]] size_t FloorOfStorey(const FloorIr& floors, uint32_t storey);
 
 // Where two or more spaces that do not overlap lie within one free face: sets Floor::dividers and builds the map anew. Errors: kInternal.
-[[nodiscard]] Expected<void> DivideRooms(const PlanIr& plan, const DivideOptions& options, const PlanarMapOptions& map_options, FloorIr& floors,
-                                         DiagnosticSink& sink);
+[[nodiscard]] Expected<void> DivideRooms(const PlanIr& plan, const DivideOptions& options, const PlanarMapOptions& map_options,
+                                         FloorIr& floors, DiagnosticSink& sink);
 
 // Appends to graph.open_boundaries the lines along which rooms of an open plan meet.
 void AddOpenBoundaries(const FloorIr& floors, const std::vector<std::vector<RoomId>>& rooms_by_face, AGraph& graph);

@@ -25,7 +25,8 @@ struct Side {
 
 class DoorwayMaker {
  public:
-  DoorwayMaker(const PlanIr& plan, const FloorIr& floors, const RoomsByFace& rooms, const DoorwayOptions& options, AGraph& graph, DiagnosticSink& sink)
+  DoorwayMaker(const PlanIr& plan, const FloorIr& floors, const RoomsByFace& rooms, const DoorwayOptions& options, AGraph& graph,
+               DiagnosticSink& sink)
       : plan_(plan), rooms_(rooms), options_(options), graph_(graph), sink_(sink) {
     for (const Floor& floor : floors.floors) locators_.emplace_back(floor);
   }
@@ -34,7 +35,10 @@ class DoorwayMaker {
     for (const HostedOpening& o : openings) {
       if (o.use == OpeningUse::kWindow) AddWindow(o);
       if (o.use == OpeningUse::kDoor) AddDoorway(o);
-      if (o.use == OpeningUse::kUnfilled && IsPassage(o)) AddDoorway(o);
+      if (o.use == OpeningUse::kUnfilled && IsPassage(o) && !IsKnown(o, openings)) {
+        AddDoorway(o);
+        passages_.push_back(&o);
+      }
     }
     return std::move(elements_);
   }
@@ -76,8 +80,22 @@ class DoorwayMaker {
   bool IsPassage(const HostedOpening& o) const {
     if (!o.through || o.width_m < options_.min_width_m) return false;
     const Eigen::Vector2d across = Rot90Ccw(o.along);
-    const double floor_z = FloorUnder(o, SideOf(o, across), SideOf(o, -across));
+    const Side left = SideOf(o, across), right = SideOf(o, -across);
+    if (left == right || left.kind == SideKind::kBlocked || right.kind == SideKind::kBlocked) return false;
+    const double floor_z = FloorUnder(o, left, right);
     return o.z_min_m <= floor_z + options_.max_sill_m && o.z_max_m - std::max(o.z_min_m, floor_z) >= options_.min_height_m;
+  }
+
+  // A door or an earlier opening leads through the same place.
+  bool IsKnown(const HostedOpening& o, const std::vector<HostedOpening>& openings) const {
+    const auto same = [&](const HostedOpening& other) {
+      const Eigen::Vector2d offset = other.center - o.center;
+      return other.floor == o.floor && std::abs(offset.dot(o.along)) < 0.5 * std::max(o.width_m, other.width_m) &&
+             std::abs(Cross(o.along, offset)) < options_.max_reach_m &&
+             std::min(o.z_max_m, other.z_max_m) > std::max(o.z_min_m, other.z_min_m);
+    };
+    return std::any_of(openings.begin(), openings.end(), [&](const HostedOpening& d) { return d.use == OpeningUse::kDoor && same(d); }) ||
+           std::any_of(passages_.begin(), passages_.end(), [&](const HostedOpening* p) { return same(*p); });
   }
 
   // Fills what doorways and windows have in common; `out.yaw_rad` from the first side to the second.
@@ -136,8 +154,8 @@ class DoorwayMaker {
     const SourceLocation& where = LocationOf(o);
     if (b.kind == SideKind::kBlocked) {
       sink_.Emit(DiagnosticKind::kDoorwayBlocked, where,
-                 fmt::format("{} leads to no room within {:.2f} m behind its wall; a doorway joins two rooms or a room and the outside", where.ToString(),
-                             options_.max_reach_m));
+                 fmt::format("{} leads to no room within {:.2f} m behind its wall; a doorway joins two rooms or a room and the outside",
+                             where.ToString(), options_.max_reach_m));
     } else if (a.kind == SideKind::kRoom && a == b) {
       sink_.Emit(DiagnosticKind::kDoorwayWithinRoom, where,
                  fmt::format("{} has room `{}` on both sides; a doorway joins two rooms or a room and the outside", where.ToString(),
@@ -156,6 +174,7 @@ class DoorwayMaker {
   AGraph& graph_;
   DiagnosticSink& sink_;
   OpeningElements elements_;
+  std::vector<const HostedOpening*> passages_;  // unfilled ones that are doorways
 };
 
 }  // namespace
@@ -168,8 +187,9 @@ std::string DoorwayOptions::Check() const {
   return {};
 }
 
-OpeningElements AddDoorwaysAndWindows(const PlanIr& plan, const FloorIr& floors, const RoomsByFace& rooms, const std::vector<HostedOpening>& openings,
-                                      const DoorwayOptions& options, AGraph& graph, DiagnosticSink& sink) {
+OpeningElements AddDoorwaysAndWindows(const PlanIr& plan, const FloorIr& floors, const RoomsByFace& rooms,
+                                      const std::vector<HostedOpening>& openings, const DoorwayOptions& options, AGraph& graph,
+                                      DiagnosticSink& sink) {
   return DoorwayMaker(plan, floors, rooms, options, graph, sink).Run(openings);
 }
 

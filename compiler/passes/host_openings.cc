@@ -142,12 +142,15 @@ class Host {
     out.floor = LevelAt(levels_, out.z_min_m, options_.storey_slack_m);
     out.storey = StoreyOf(c, levels_[out.floor], out.z_min_m);
     out.center = c.box.center().head<2>();
-    const uint32_t wall = c.wall != kNoIndex ? c.wall : NearestWall(out);
+    const bool stated = c.wall != kNoIndex && Meets(out.center, c.wall, out.floor);
+    if (c.wall != kNoIndex && !stated && out.use == OpeningUse::kUnfilled) return std::nullopt;
+    const uint32_t wall = stated ? c.wall : NearestWall(out);
     if (wall == kNoIndex) {
       if (out.use == OpeningUse::kUnfilled) return std::nullopt;
       const SourceLocation& where = LocationOf(c);
-      sink_.Emit(DiagnosticKind::kOpeningWithoutWall, where,
-                 fmt::format("no wall within {:.2f} m of {}; doors and windows stand in walls", options_.max_host_distance_m, where.ToString()));
+      sink_.Emit(
+          DiagnosticKind::kOpeningWithoutWall, where,
+          fmt::format("no wall within {:.2f} m of {}; doors and windows stand in walls", options_.max_host_distance_m, where.ToString()));
       AlignToSelf(c, out);
       return out;
     }
@@ -179,6 +182,13 @@ class Host {
       }
     }
     return any;
+  }
+
+  // Whether the wall that the source states is anywhere near.
+  bool Meets(const Eigen::Vector2d& center, uint32_t wall, size_t floor) const {
+    const Footprint* footprint = FootprintOf(wall, floor);
+    if (footprint == nullptr) return true;
+    return WindingNumber(footprint->rings, center) != 0 || DistanceToRings(center, footprint->rings) <= options_.max_host_distance_m;
   }
 
   uint32_t NearestWall(const HostedOpening& o) const {
@@ -249,7 +259,8 @@ class Host {
   }
 
   // Where the line at + t * across runs inside the rings, the interval nearest to t = 0. Falls back to the wall's axis and thickness.
-  static std::pair<double, double> SolidInterval(const std::vector<Ring>& rings, const Eigen::Vector2d& at, const Eigen::Vector2d& across, const Wall& wall) {
+  static std::pair<double, double> SolidInterval(const std::vector<Ring>& rings, const Eigen::Vector2d& at, const Eigen::Vector2d& across,
+                                                 const Wall& wall) {
     std::vector<std::pair<double, int>> crossings;
     for (const Ring& ring : rings) {
       for (size_t i = 0; i < ring.size(); ++i) {
@@ -294,7 +305,8 @@ std::string HostingOptions::Check() const {
   return {};
 }
 
-std::vector<HostedOpening> HostOpenings(const PlanIr& plan, const FloorIr& floors, const HostingOptions& options, const AGraph& graph, DiagnosticSink& sink) {
+std::vector<HostedOpening> HostOpenings(const PlanIr& plan, const FloorIr& floors, const HostingOptions& options, const AGraph& graph,
+                                        DiagnosticSink& sink) {
   return Host(plan, floors, options, graph, sink).Run();
 }
 

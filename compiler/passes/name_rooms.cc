@@ -81,9 +81,11 @@ class Namer {
       graph_.rooms[p.room].guid = plan_.spaces[p.space].guid;
       if (p.iou >= options_.min_equal_iou) continue;
       const PlanSpace& space = plan_.spaces[p.space];
-      sink_.Emit(DiagnosticKind::kRoomDiffersFromSpace, space.location,
-                 fmt::format("space `{}` has {:.2f} m2, the room between the walls {:.2f} m2, {:.2f} m2 in common; intersection over union {:.2f} < {:.2f}",
-                             Label(space), outlines_[p.space].area_m2, graph_.rooms[p.room].area_m2, p.overlap_m2, p.iou, options_.min_equal_iou));
+      sink_.Emit(
+          DiagnosticKind::kRoomDiffersFromSpace, space.location,
+          fmt::format("space `{}` has {:.2f} m2, the room between the walls {:.2f} m2, {:.2f} m2 in common; intersection over union {:.2f} "
+                      "< {:.2f}",
+                      Label(space), outlines_[p.space].area_m2, graph_.rooms[p.room].area_m2, p.overlap_m2, p.iou, options_.min_equal_iou));
     }
   }
 
@@ -95,11 +97,12 @@ class Namer {
         continue;
       }
       if (room_of_space_[s] != kNoIndex) continue;
-      const auto part_of = std::find_if(pairs_.begin(), pairs_.end(), [&](const Pairing& p) { return p.space == s && p.overlap_m2 > 0.5 * outlines_[s].area_m2; });
+      const auto part_of = std::find_if(pairs_.begin(), pairs_.end(),
+                                        [&](const Pairing& p) { return p.space == s && p.overlap_m2 > 0.5 * outlines_[s].area_m2; });
       if (part_of != pairs_.end()) {
         sink_.Emit(DiagnosticKind::kSpaceWithinRoom, space.location,
-                   fmt::format("no walls divide space `{}` ({:.2f} m2) from the rest of a room of {:.2f} m2", Label(space), outlines_[s].area_m2,
-                               graph_.rooms[part_of->room].area_m2));
+                   fmt::format("no walls divide space `{}` ({:.2f} m2) from the rest of a room of {:.2f} m2", Label(space),
+                               outlines_[s].area_m2, graph_.rooms[part_of->room].area_m2));
       } else {
         sink_.Emit(DiagnosticKind::kSpaceWithoutRoom, space.location,
                    fmt::format("no walls close around space `{}` ({:.2f} m2)", Label(space), outlines_[s].area_m2));
@@ -107,11 +110,13 @@ class Namer {
     }
     for (size_t r = 0; r < graph_.rooms.size() && !plan_.spaces.empty(); ++r) {
       const Room& room = graph_.rooms[r];
-      const bool touched = std::any_of(pairs_.begin(), pairs_.end(), [&](const Pairing& p) { return p.room == r && p.overlap_m2 > kTouches * room.area_m2; });
+      const bool touched = std::any_of(pairs_.begin(), pairs_.end(),
+                                       [&](const Pairing& p) { return p.room == r && p.overlap_m2 > kTouches * room.area_m2; });
       if (touched) continue;
-      sink_.Emit(DiagnosticKind::kRoomWithoutSpace, {},
-                 fmt::format("the room of {:.2f} m2 around ({:.2f}, {:.2f}) on `{}` has no space", room.area_m2, room.center.x() + plan_.origin.x(),
-                             room.center.y() + plan_.origin.y(), graph_.storeys[room.storey.index()].name));
+      sink_.Emit(
+          DiagnosticKind::kRoomWithoutSpace, {},
+          fmt::format("the room of {:.2f} m2 around ({:.2f}, {:.2f}) on `{}` has no space", room.area_m2,
+                      room.center.x() + plan_.origin.x(), room.center.y() + plan_.origin.y(), graph_.storeys[room.storey.index()].name));
     }
   }
 

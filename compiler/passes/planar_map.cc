@@ -53,7 +53,8 @@ SnapGraph OutlinesOf(const Floor& floor) {
 
 class MapBuilder {
  public:
-  MapBuilder(Floor& floor, const PlanarMapOptions& options) : floor_(floor), options_(options), graph_(Snap(OutlinesOf(floor), options.snap_radius_m)) {}
+  MapBuilder(Floor& floor, const PlanarMapOptions& options)
+      : floor_(floor), options_(options), graph_(Snap(OutlinesOf(floor), options.snap_radius_m)) {}
 
   void Run() {
     Insert();
@@ -139,7 +140,8 @@ class MapBuilder {
   }
   // No wall's outline runs here.
   bool IsVirtual(Halfedge edge) const {
-    return std::all_of(edge->curve().data().begin(), edge->curve().data().end(), [this](uint32_t i) { return IsDivider(graph_.segments[i].footprint); });
+    return std::all_of(edge->curve().data().begin(), edge->curve().data().end(),
+                       [this](uint32_t i) { return IsDivider(graph_.segments[i].footprint); });
   }
 
   static double AreaOf(Arrangement::Face_handle face) {
@@ -216,10 +218,12 @@ class MapBuilder {
         const double length = std::sqrt(CGAL::to_double(CGAL::squared_distance(edge->source()->point(), edge->target()->point())));
         const Arrangement::Face_handle across = edge->twin()->face();
         perimeter += length;
-        if (IsVirtual(edge) && across->data().region == f->data().region && across->data().space != kNoIndex) border[across->data().space] += length;
+        if (IsVirtual(edge) && across->data().region == f->data().region && across->data().space != kNoIndex)
+          border[across->data().space] += length;
       });
       if (border.empty() || 2 * AreaOf(f) > options_.max_strip_width_m * perimeter) continue;
-      f->data().space = std::max_element(border.begin(), border.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
+      f->data().space =
+          std::max_element(border.begin(), border.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
       changed = true;
     }
     return changed;
@@ -304,7 +308,8 @@ class MapBuilder {
 }  // namespace
 
 std::string PlanarMapOptions::Check() const {
-  if (!(snap_radius_m > 0 && snap_radius_m <= 0.05)) return fmt::format("PlanarMapOptions.snap_radius_m = {}; must be in (0, 0.05]", snap_radius_m);
+  if (!(snap_radius_m > 0 && snap_radius_m <= 0.05))
+    return fmt::format("PlanarMapOptions.snap_radius_m = {}; must be in (0, 0.05]", snap_radius_m);
   if (!(max_strip_width_m >= 0)) return fmt::format("PlanarMapOptions.max_strip_width_m = {}; must not be negative", max_strip_width_m);
   return {};
 }

@@ -16,10 +16,10 @@ struct PlanarMapOptions {
   [[nodiscard]] std::string Check() const;
 };
 
-// Fills vertices and faces of `floor` from its footprints that bound rooms and its dividers. Faces are labelled with the footprints over them by carrying
-// winding numbers across edges from the unbounded face, so a label never depends on a rounded test point. Vertices are in lexicographic
-// order, faces in the order of their outer boundaries: the order of the footprints does not matter. Dividers cover nothing: they only divide
-// the free region that holds most of each. Errors: kInternal.
+// Fills vertices and faces of `floor` from its footprints that bound rooms and its dividers. Faces are labelled with the footprints over
+// them by carrying winding numbers across edges from the unbounded face, so a label never depends on a rounded test point. Vertices are in
+// lexicographic order, faces in the order of their outer boundaries: the order of the footprints does not matter. Dividers cover nothing:
+// they only divide the free region that holds most of each. Errors: kInternal.
 [[nodiscard]] Expected<void> BuildPlanarMap(Floor& floor, const PlanarMapOptions& options);
 
 // Boundaries of a face as rings: the outer one first, then its holes.

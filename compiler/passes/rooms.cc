@@ -64,7 +64,11 @@ std::vector<Eigen::Vector2d> ProbePoints(const std::vector<Ring>& rings, double 
 class RoomFinder {
  public:
   RoomFinder(const PlanIr& plan, const FloorIr& floors, const RoomOptions& options, AGraph& graph, DiagnosticSink& sink)
-      : plan_(plan), floors_(floors), options_(options), graph_(graph), sink_(sink),
+      : plan_(plan),
+        floors_(floors),
+        options_(options),
+        graph_(graph),
+        sink_(sink),
         below_(plan, {ElementKind::kSlab, ElementKind::kRoof, ElementKind::kCovering, ElementKind::kGround}),
         above_(plan, {ElementKind::kSlab, ElementKind::kRoof, ElementKind::kCovering}) {}
 
@@ -83,8 +87,10 @@ class RoomFinder {
     std::vector<Ring> rings;
     for (const Ring& ring : FaceRings(floor, face)) {
       Ring simple = Simplified(ring, options_.collinear_m);
-      if (simple.size() >= 3) rings.push_back(std::move(simple));
-      else if (rings.empty()) return {};
+      if (simple.size() >= 3)
+        rings.push_back(std::move(simple));
+      else if (rings.empty())
+        return {};
     }
     if (2 * face.area_m2 / Perimeter(rings) < options_.min_width_m) return {};
     Room room;
@@ -118,8 +124,8 @@ class RoomFinder {
     const double clear = (has_ceiling ? *std::max_element(ceiling_hits.begin(), ceiling_hits.end()) : room.ceiling_z_m) - room.floor_z_m;
     if (clear >= options_.min_clear_height_m) return true;
     sink_.Emit(DiagnosticKind::kRoomTooLow, {},
-               fmt::format("the space of {:.1f} m2 around ({:.2f}, {:.2f}) on `{}` is {:.2f} m high; rooms have at least {:.2f} m", room.area_m2,
-                           Centroid(rings).x() + plan_.origin.x(), Centroid(rings).y() + plan_.origin.y(),
+               fmt::format("the space of {:.1f} m2 around ({:.2f}, {:.2f}) on `{}` is {:.2f} m high; rooms have at least {:.2f} m",
+                           room.area_m2, Centroid(rings).x() + plan_.origin.x(), Centroid(rings).y() + plan_.origin.y(),
                            graph_.storeys[room.storey.index()].name, clear, options_.min_clear_height_m));
     return false;
   }

@@ -22,6 +22,7 @@ using RoomsByFace = std::vector<std::vector<RoomId>>;
 // Appends to graph.rooms in the order of floors and faces; surfaces and names come later. Walls and columns that stand free become holes.
 // Rooms that an opening wider than any door joins stay apart, with a doorway between them. Floor and ceiling heights are the medians of
 // vertical probes into slabs, roofs, coverings and ground; without any: the storey's elevation and the next level's. Needs graph.storeys.
-[[nodiscard]] RoomsByFace FindRooms(const PlanIr& plan, const FloorIr& floors, const RoomOptions& options, AGraph& graph, DiagnosticSink& sink);
+[[nodiscard]] RoomsByFace FindRooms(const PlanIr& plan, const FloorIr& floors, const RoomOptions& options, AGraph& graph,
+                                    DiagnosticSink& sink);
 
 }  // namespace plumb::compiler

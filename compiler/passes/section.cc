@@ -9,7 +9,7 @@
 namespace plumb::compiler {
 namespace {
 
-constexpr double kWeldRadius_m = 1e-5;       // rounding of coordinates written with five decimals
+constexpr double kWeldRadius_m = 1e-5;  // rounding of coordinates written with five decimals
 constexpr double kCollinear_m = 2e-5;
 constexpr double kMinRingArea_m2 = 1e-6;
 

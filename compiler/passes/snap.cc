@@ -39,7 +39,8 @@ SnapGraph WeldVertices(const SnapGraph& graph, double radius_m) {
 }
 
 void ApplySplits(SnapGraph& graph, std::vector<Split>& splits) {
-  std::sort(splits.begin(), splits.end(), [](const Split& a, const Split& b) { return std::tie(a.segment, a.t, a.vertex) < std::tie(b.segment, b.t, b.vertex); });
+  std::sort(splits.begin(), splits.end(),
+            [](const Split& a, const Split& b) { return std::tie(a.segment, a.t, a.vertex) < std::tie(b.segment, b.t, b.vertex); });
   std::vector<SnapSegment> out;
   auto next = splits.begin();
   for (uint32_t i = 0; i < graph.segments.size(); ++i) {
@@ -68,7 +69,8 @@ bool SplitAtVertices(SnapGraph& graph, double radius_m) {
   for (uint32_t i = 0; i < graph.segments.size(); ++i) {
     const SnapSegment& s = graph.segments[i];
     const Eigen::Vector2d a = graph.vertices[s.from], along = graph.vertices[s.to] - a;
-    const double length = along.norm(), lo_x = std::min(a.x(), a.x() + along.x()) - radius_m, hi_x = std::max(a.x(), a.x() + along.x()) + radius_m;
+    const double length = along.norm(), lo_x = std::min(a.x(), a.x() + along.x()) - radius_m,
+                 hi_x = std::max(a.x(), a.x() + along.x()) + radius_m;
     auto it = std::lower_bound(by_x.begin(), by_x.end(), lo_x, [&](uint32_t v, double x) { return graph.vertices[v].x() < x; });
     for (; it != by_x.end() && graph.vertices[*it].x() <= hi_x; ++it) {
       const uint32_t v = *it;

@@ -95,11 +95,14 @@ WallAxis AxisOfStrip(const std::vector<Ring>& rings) {
 // Of a wall between two arcs about one centre: the chord of the arc half way between them.
 std::optional<WallAxis> AxisOfArcs(const std::vector<Arc>& arcs) {
   if (arcs.size() < 2) return std::nullopt;
-  const auto [inner, outer] = std::minmax_element(arcs.begin(), arcs.end(), [](const Arc& a, const Arc& b) { return a.radius_m < b.radius_m; });
+  const auto [inner, outer] =
+      std::minmax_element(arcs.begin(), arcs.end(), [](const Arc& a, const Arc& b) { return a.radius_m < b.radius_m; });
   const double thickness = outer->radius_m - inner->radius_m;
   if (thickness <= 0 || (outer->center - inner->center).norm() > 0.1 * thickness) return std::nullopt;
   const double radius = 0.5 * (inner->radius_m + outer->radius_m);
-  const auto at = [&](double angle) -> Eigen::Vector2d { return outer->center + radius * Eigen::Vector2d(std::cos(angle), std::sin(angle)); };
+  const auto at = [&](double angle) -> Eigen::Vector2d {
+    return outer->center + radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+  };
   return WallAxis{at(outer->start_rad), at(outer->start_rad + outer->sweep_rad), thickness};
 }
 

@@ -16,8 +16,8 @@ struct WallAxis {
 // rectangle around them, and the thickness of a strip of the same area and perimeter. O(E^2) for E edges.
 [[nodiscard]] WallAxis AxisOfFootprint(const std::vector<Ring>& rings, const Eigen::Vector2d& direction);
 
-// Appends one Wall per FloorIr::walls, in that order. The source's thickness counts if the footprint bears it out within 1 cm; its axis gives
-// the direction only, since it may lie on a face of the wall.
+// Appends one Wall per FloorIr::walls, in that order. The source's thickness counts if the footprint bears it out within 1 cm; its axis
+// gives the direction only, since it may lie on a face of the wall.
 void AddWalls(const PlanIr& plan, const FloorIr& floors, AGraph& graph);
 
 }  // namespace plumb::compiler

@@ -15,6 +15,7 @@ namespace plumb::compiler {
 namespace {
 
 constexpr double kSameHeight_m = 0.01;
+constexpr double kRail_m = 0.02;  // into the lowest and highest rail of a curtain wall
 
 const Solid& SectionSolid(const PlanElement& e) { return e.uncut.empty() ? e.body : e.uncut; }
 
@@ -36,7 +37,11 @@ Ring Rounded(const Ring& ring, double grid_m) {
 class FootprintCutter {
  public:
   FootprintCutter(const PlanIr& plan, const std::vector<Level>& levels, const FootprintOptions& options, DiagnosticSink& sink)
-      : plan_(plan), levels_(levels), options_(options), sink_(sink), covers_(plan, {ElementKind::kRoof, ElementKind::kSlab, ElementKind::kCovering}) {}
+      : plan_(plan),
+        levels_(levels),
+        options_(options),
+        sink_(sink),
+        covers_(plan, {ElementKind::kRoof, ElementKind::kSlab, ElementKind::kCovering}) {}
 
   FloorIr Run() {
     out_.walls = CollectWalls(plan_, sink_);
@@ -87,10 +92,12 @@ class FootprintCutter {
     Floor& floor = FloorOf(wall.storey);
     Add(floor, FootprintKind::kWall, index, wall.elements, {Middle(wall)}, false);
     const PlanElement& e = plan_.elements[wall.elements[0]];
-    sink_.Emit(DiagnosticKind::kWallOffSection, e.location,
-               fmt::format("{} is from {:.2f} m to {:.2f} m and nothing closes it above; walls that miss the section at {:.2f} m do not bound rooms",
-                           e.location.ToString(), wall.z_min_m + plan_.origin.z(), wall.z_max_m + plan_.origin.z(),
-                           floor.level.section_z_m + plan_.origin.z()));
+    sink_.Emit(
+        DiagnosticKind::kWallOffSection, e.location,
+        fmt::format(
+            "{} is from {:.2f} m to {:.2f} m and nothing closes it above; walls that miss the section at {:.2f} m do not bound rooms",
+            e.location.ToString(), wall.z_min_m + plan_.origin.z(), wall.z_max_m + plan_.origin.z(),
+            floor.level.section_z_m + plan_.origin.z()));
   }
 
   void AddColumn(uint32_t e) {
@@ -118,15 +125,31 @@ class FootprintCutter {
     return out;
   }
 
+  // The section of a curtain wall may be posts only, its panes being windows and doors: the band that they stand in is the wall. A straight
+  // one is its least rectangle; others get the sections of their sill and head rails on top.
+  void CloseCurtain(const PlanWall& wall, std::vector<Ring>& rings) {
+    if (rings.size() < 2) return;
+    std::vector<Eigen::Vector2d> points;
+    for (const Ring& ring : rings) points.insert(points.end(), ring.begin(), ring.end());
+    const Ring band = Rounded(LeastRectangle(points), options_.grid_m);
+    if (band.size() == 4 && std::min((band[1] - band[0]).norm(), (band[2] - band[1]).norm()) <= options_.max_curtain_depth_m) {
+      rings = {band};
+      return;
+    }
+    for (Ring& ring : CutElements(wall.elements, {wall.z_min_m + kRail_m, wall.z_max_m - kRail_m})) rings.push_back(std::move(ring));
+  }
+
   void ReportOpen(uint32_t e, double z_m) {
     const PlanElement& element = plan_.elements[e];
     sink_.Emit(DiagnosticKind::kFootprintOpen, element.location,
-               fmt::format("the section of {} at {:.2f} m is no closed outline; the rectangle around it stands in", element.location.ToString(),
-                           z_m + plan_.origin.z()));
+               fmt::format("the section of {} at {:.2f} m is no closed outline; the rectangle around it stands in",
+                           element.location.ToString(), z_m + plan_.origin.z()));
   }
 
-  void Add(Floor& floor, FootprintKind kind, uint32_t wall, const std::vector<uint32_t>& elements, const std::vector<double>& heights_m, bool bounds_rooms) {
+  void Add(Floor& floor, FootprintKind kind, uint32_t wall, const std::vector<uint32_t>& elements, const std::vector<double>& heights_m,
+           bool bounds_rooms) {
     Footprint out{kind, wall, elements[0], bounds_rooms, CutElements(elements, heights_m)};
+    if (plan_.elements[elements[0]].kind == ElementKind::kCurtainWall) CloseCurtain(out_.walls[wall], out.rings);
     if (!out.rings.empty()) floor.footprints.push_back(std::move(out));
   }
 
@@ -166,6 +189,7 @@ class FootprintCutter {
 std::string FootprintOptions::Check() const {
   if (!(grid_m > 0 && grid_m < 0.01)) return fmt::format("FootprintOptions.grid_m = {}; must be in (0, 0.01)", grid_m);
   if (!(closed_above_gap_m >= 0)) return fmt::format("FootprintOptions.closed_above_gap_m = {}; must not be negative", closed_above_gap_m);
+  if (!(max_curtain_depth_m > 0)) return fmt::format("FootprintOptions.max_curtain_depth_m = {}; must be positive", max_curtain_depth_m);
   return {};
 }
 

@@ -65,7 +65,10 @@ class SurfaceBuilder {
       const bool is_side = curved || std::abs(Cross(along, (wall.axis_end - wall.axis_start).normalized())) < kAlongAxis;
       if (best != kNoIndex) {
         const Wall& rival = graph_.walls[best];
-        if (is_side != best_is_side ? !is_side : wall.thickness_m != rival.thickness_m ? wall.thickness_m < rival.thickness_m : wall.guid >= rival.guid) continue;
+        if (is_side != best_is_side                 ? !is_side
+            : wall.thickness_m != rival.thickness_m ? wall.thickness_m < rival.thickness_m
+                                                    : wall.guid >= rival.guid)
+          continue;
       }
       best = w;
       best_is_side = is_side;
@@ -91,7 +94,8 @@ class SurfaceBuilder {
     if (owner.arc != 0) return true;
     const Eigen::Vector2d &first = run.points.front(), &last = run.points.back();
     if ((to - last).dot(last - first) <= 0) return false;
-    return std::all_of(run.points.begin(), run.points.end(), [&](const auto& p) { return DistanceToSegment(p, first, to) <= options_.collinear_m; });
+    return std::all_of(run.points.begin(), run.points.end(),
+                       [&](const auto& p) { return DistanceToSegment(p, first, to) <= options_.collinear_m; });
   }
 
   void AddRuns(const Floor& floor, const std::vector<BoundaryEdge>& edges, RoomId room) {

@@ -7,10 +7,10 @@
 namespace plumb::compiler {
 
 struct SurfaceOptions {
-  double collinear_m = 0.0015;   // edges of one wall this close to one line are one surface
-  double arc_m = 0.003;          // corners this close to an arc of the source lie on it
-  double min_length_m = 0.02;    // shorter ones are leftovers of joints
-  double min_external_m = 0.3;   // a wall with at least this much of a side to the outside is external
+  double collinear_m = 0.0015;  // edges of one wall this close to one line are one surface
+  double arc_m = 0.003;         // corners this close to an arc of the source lie on it
+  double min_length_m = 0.02;   // shorter ones are leftovers of joints
+  double min_external_m = 0.3;  // a wall with at least this much of a side to the outside is external
   [[nodiscard]] std::string Check() const;
 };
 

@@ -25,6 +25,7 @@ constexpr size_t kMinPatchCells = 6;
 constexpr int kRefinements = 3;
 constexpr double kFlatShare = 0.95;        // of the cells on the common fit: no need to look for steps
 constexpr double kMinAcross_m = 0.2;       // height of a wall segment
+constexpr double kSureArea_m2 = 1.0, kMinFill = 0.25;  // a smaller segment whose cells are strewn over a larger rectangle is noise
 constexpr double kMinCellPoints = 2;
 constexpr double kMinCellShare = 0.25;     // of the median cell's points: less is noise beyond an edge
 
@@ -171,6 +172,7 @@ std::optional<Segment> SegmentOf(const std::vector<Cell>& cells, SurfaceKind kin
   const Eigen::Vector2d size_m = hi - lo + Eigen::Vector2d::Constant(kCell_m);
   const double min_across_m = kind == SurfaceKind::kWall ? std::min(kMinAcross_m, options.min_segment_extent_m) : options.min_segment_extent_m;
   if (size_m.x() < options.min_segment_extent_m || size_m.y() < min_across_m) return std::nullopt;
+  if (area_m2 < kSureArea_m2 && area_m2 < kMinFill * size_m.prod()) return std::nullopt;
   return segment;
 }
 

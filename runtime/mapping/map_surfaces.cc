@@ -13,6 +13,7 @@ namespace {
 constexpr double kSameFacingCos = 0.8;
 // Two views of one surface may differ in direction by this much at the shorter one's ends, and by odometry's drift.
 constexpr double kEndOffset_m = 0.03, kMinAngle_rad = 0.02;
+constexpr double kEchoPoints = 0.2, kEchoFacingCos = 0.94, kEchoDistance_m = 0.06, kEchoShare = 0.6;
 constexpr double kEdge_m = 0.5 * kCell_m;  // a cell's mean point lies inside the surface's edge by about this
 
 // Angle between the normals; for walls of their horizontal parts, since low segments know little of their tilt.
@@ -102,6 +103,11 @@ double SurfaceDistance(const SurfacePatch& a, const SurfacePatch& b, const Mappe
     worst_m = std::max(worst_m, offset_m);
   }
   return worst_m <= options.merge_distance_m ? 0.5 * sum_m : kApart;
+}
+
+bool IsEcho(const MapSurface& b, const SurfacePatch& b_patch, const MapSurface& a, const SurfacePatch& a_patch) {
+  if (a.kind != b.kind || b.num_points > kEchoPoints * a.num_points || a.plane.n.dot(b.plane.n) < kEchoFacingCos) return false;
+  return a_patch.ShareCovered(b_patch, kEchoDistance_m) >= kEchoShare;
 }
 
 void Absorb(const TrackedSurface& b, const std::vector<Keyframe>& keyframes, MapSurface* a, SurfaceTrack* a_track) {

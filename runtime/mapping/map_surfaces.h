@@ -24,9 +24,11 @@ struct TrackedSurface {
 [[nodiscard]] TrackedSurface SurfaceOf(const Segment& segment, const Keyframe& keyframe);
 
 // How far apart two surfaces are, at the ends of their overlap; infinity if they are not the same: other kind or facing, other direction, offset
-// too large, or a gap between them.
-// Offsets are taken on the surfaces, never at the frame's origin, where an error in direction would pass for one in offset.
+// too large, or a gap between them. Offsets are taken on the surfaces, never at the frame's origin, where an error in direction would pass for one in offset.
 [[nodiscard]] double SurfaceDistance(const SurfacePatch& a, const SurfacePatch& b, const MapperOptions& options);
+
+// Whether b is a poor fit to points of a: much weaker, roughly as a faces, close to it, and where a was seen itself. Nothing real can be there.
+[[nodiscard]] bool IsEcho(const MapSurface& b, const SurfacePatch& b_patch, const MapSurface& a, const SurfacePatch& a_patch);
 
 // Adds b's observations and cells to a.
 void Absorb(const TrackedSurface& b, const std::vector<Keyframe>& keyframes, MapSurface* a, SurfaceTrack* a_track);

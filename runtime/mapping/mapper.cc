@@ -95,9 +95,18 @@ void Mapper::AddSegment(const Segment& segment, const Keyframe& keyframe) {
     Absorb(candidate, graph_.keyframes, &graph_.surfaces[best], &tracks_[best]);
     return;
   }
+  for (size_t i = 0; i < graph_.surfaces.size(); ++i) {
+    if (!graph_.surfaces[i].observations.empty() && IsEcho(candidate.surface, candidate.track.patch, graph_.surfaces[i], tracks_[i].patch)) return;
+  }
   candidate.surface.id = static_cast<uint32_t>(graph_.surfaces.size());
   graph_.surfaces.push_back(std::move(candidate.surface));
   tracks_.push_back(std::move(candidate.track));
+}
+
+void Mapper::Empty(size_t i) {
+  const uint32_t id = graph_.surfaces[i].id;
+  graph_.surfaces[i] = {};
+  graph_.surfaces[i].id = id;
 }
 
 // The older of two surfaces stays; the younger keeps its slot, empty.
@@ -109,10 +118,13 @@ void Mapper::MergeDuplicates() {
       if (surfaces[k].observations.empty()) continue;
       if (std::isinf(SurfaceDistance(tracks_[i].patch, tracks_[k].patch, options_))) continue;
       Absorb({surfaces[k], tracks_[k]}, graph_.keyframes, &surfaces[i], &tracks_[i]);
-      const uint32_t id = surfaces[k].id;
-      surfaces[k] = {};
-      surfaces[k].id = id;
+      Empty(k);
       k = i;  // the grown surface may reach others
+    }
+  }
+  for (size_t i = 0; i < surfaces.size(); ++i) {
+    for (size_t k = 0; k < surfaces.size() && !surfaces[i].observations.empty(); ++k) {
+      if (i != k && !surfaces[k].observations.empty() && IsEcho(surfaces[i], tracks_[i].patch, surfaces[k], tracks_[k].patch)) Empty(i);
     }
   }
 }

@@ -39,6 +39,7 @@ class Mapper {
   [[nodiscard]] bool WindowIsFull(double stamp_s, const Eigen::Isometry3d& T_odom_lidar) const;
   bool CloseWindow();
   void AddSegment(const Segment& segment, const Keyframe& keyframe);
+  void Empty(size_t i);
   void MergeDuplicates();
 
   MapperOptions options_;

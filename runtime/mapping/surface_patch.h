@@ -37,6 +37,8 @@ class SurfacePatch {
   // The first point marked in every cell, in that order.
   [[nodiscard]] std::vector<Eigen::Vector3d> CellPoints() const;
   [[nodiscard]] double area_m2() const;
+  // Share of b's cells that lie within distance_m of this plane and on or next to one of this patch's cells.
+  [[nodiscard]] double ShareCovered(const SurfacePatch& b, double distance_m) const;
 
  private:
   uint32_t keyframe_;

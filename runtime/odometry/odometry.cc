@@ -3,8 +3,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "runtime/odometry/leveling.h"
 #include "runtime/odometry/registration.h"
@@ -18,6 +20,9 @@ constexpr double kMaxTilt_rad = 0.1745;         // the sensor starts this uprigh
 constexpr double kLevelingVoxel_m = 1.0;        // wide enough for two rings on the floor
 constexpr int kMinFirstPoints = 200;
 constexpr int kMaxFailures = 5;                 // in a row; then the map goes on from the predicted pose
+constexpr double kSureGap_s = 0.25;             // after longer gaps the robot may have turned any way
+constexpr size_t kSearchPoints = 800;
+constexpr std::array<double, 7> kSearchYaw_rad = {0, 0.2, -0.2, 0.4, -0.4, 0.6, -0.6};
 constexpr double kMaxPrediction_s = 1.0;        // velocity is not trusted for longer
 // Of a robot or a walking person, one sigma; less up and down and in tilt.
 const Eigen::Vector3d kAcceleration_mps2(3.0, 3.0, 1.0), kTurning_radps2(1.5, 1.5, 6.0);
@@ -97,6 +102,8 @@ struct Odometry::Impl {
   void Start(const PreparedScan& prepared, const std::optional<GivenMotion>& given);
   [[nodiscard]] SweepPrior Predict(double stamp_s, double sweep_s, const std::optional<GivenMotion>& given) const;
   [[nodiscard]] RegistrationResult Align(const PreparedScan& prepared, const SweepPrior& prior, double gap_s) const;
+  [[nodiscard]] RegistrationResult Search(const PreparedScan& prepared, const SweepPrior& prior, const RegistrationOptions& registration,
+                                          bool headings) const;
   void RestartWithVelocity(const PreparedScan& second, const SweepPrior& prior, RegistrationResult* aligned);
   void Insert(const PreparedScan& prepared, const SweepMotion& motion);
   void Advance(const PreparedScan& prepared, const RegistrationResult& aligned, const std::optional<GivenMotion>& given);
@@ -195,10 +202,39 @@ RegistrationResult Odometry::Impl::Align(const PreparedScan& prepared, const Swe
   registration.max_iterations = options.max_iterations;
   registration.range_sigma_m = options.range_sigma_m;
   const double expected_m = 3 * std::sqrt(prediction_error2_m2);
-  const bool unsure = failures > 0 || gap_s > 0.25 || expected_m > 0.5 * options.voxel_m;
-  registration.initial_kernel_m = unsure ? 2 * options.voxel_m : std::clamp(expected_m, 0.1, options.voxel_m);
-  registration.search_neighbours = unsure;
-  return RegisterSweep(prepared.points, prepared.sweep_s > 0, map, prior, registration);
+  const bool unsure = failures > 0 || gap_s > kSureGap_s || expected_m > 0.5 * options.voxel_m;
+  if (!unsure) {
+    registration.initial_kernel_m = std::clamp(expected_m, 0.1, options.voxel_m);
+    return RegisterSweep(prepared.points, prepared.sweep_s > 0, map, prior, registration);
+  }
+  registration.initial_kernel_m = 2 * options.voxel_m;
+  registration.search_neighbours = true;
+  return Search(prepared, prior, registration, gap_s > kSureGap_s || failures > 0);
+}
+
+// Starts from several headings, since registration finds home only from some ten degrees, on few points; then from the best on all.
+RegistrationResult Odometry::Impl::Search(const PreparedScan& prepared, const SweepPrior& prior, const RegistrationOptions& registration,
+                                          bool headings) const {
+  std::vector<SweepPoint> few;
+  const size_t step = prepared.points.size() / kSearchPoints + 1;
+  for (size_t i = 0; i < prepared.points.size(); i += step) few.push_back(prepared.points[i]);
+  SweepPrior best = prior;
+  int most = -1;
+  for (const double yaw_rad : kSearchYaw_rad) {
+    if (yaw_rad != 0 && !headings) break;
+    SweepPrior turned = prior;
+    const Eigen::AngleAxisd turn(yaw_rad, Eigen::Vector3d::UnitZ());
+    turned.mean.T_start.linear() = turn * prior.mean.T_start.linear();
+    turned.mean.T_end = turned.mean.T_start * prior.mean.T_start.inverse() * prior.mean.T_end;
+    const RegistrationResult r = RegisterSweep(few, prepared.sweep_s > 0, map, turned, registration);
+    if (r.num_inliers <= most) continue;
+    most = r.num_inliers;
+    best.mean = r.motion;
+  }
+  RegistrationOptions fine = registration;
+  fine.search_neighbours = false;
+  fine.initial_kernel_m = 0.5 * options.voxel_m;
+  return RegisterSweep(prepared.points, prepared.sweep_s > 0, map, best, fine);
 }
 
 // The first scan went into the map as if the robot had stood still. Now that its velocity is known, begin again without that blur.

@@ -1,53 +1,162 @@
-// Odometry on a synthetic drive through the test house: error against truth and time per scan.
-//   odometry_benchmark [rounds] [with time: 0|1] [noise_m]
+// Odometry and mapping: error against truth, time per scan, and what the map looks like.
+//   odometry_benchmark                  a synthetic drive through the test house
+//   odometry_benchmark REC              a recording folder; compares with REC/truth.tum if there is one
+//   ... --given                         uses REC/odometry.tum as a prior
+//   ... --surfaces                      lists the map's surfaces
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdlib>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
+#include "runtime/mapping/mapper.h"
 #include "runtime/odometry/odometry.h"
 #include "tests/support/house.h"
 #include "tests/support/synthetic_lidar.h"
 
-int main(int argc, char** argv) {
-  using namespace plumb;
-  const int rounds = argc > 1 ? std::atoi(argv[1]) : 1;
-  test::SyntheticLidarOptions options;
-  options.with_time = argc <= 2 || std::atoi(argv[2]) != 0;
-  if (argc > 3) options.noise_m = std::atof(argv[3]);
-  const test::SyntheticLidar lidar(test::MakeHouse(), options);
-  const test::Drive drive = test::HouseDrive(rounds);
-  runtime::Odometry odometry;
+namespace {
+
+using namespace plumb;
+using namespace plumb::runtime;
+
+struct Input {
+  size_t num_scans = 0;
+  std::function<std::optional<Scan>(size_t)> read;
+  std::function<std::optional<Eigen::Isometry3d>(double)> truth_at, given_at;
+};
+
+class Timer {
+ public:
+  void Start() { start_ = std::chrono::steady_clock::now(); }
+  void Stop() { times_ms_.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count()); }
+  [[nodiscard]] std::string Summary() {
+    std::sort(times_ms_.begin(), times_ms_.end());
+    double sum_ms = 0;
+    for (const double ms : times_ms_) sum_ms += ms;
+    if (times_ms_.empty()) return "no scans";
+    const auto n = times_ms_.size();
+    return fmt::format("{:.2f} ms/scan mean, {:.2f} p95, {:.2f} max", sum_ms / static_cast<double>(n), times_ms_[n * 95 / 100], times_ms_.back());
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_;
+  std::vector<double> times_ms_;
+};
+
+Input SyntheticInput() {
+  const auto lidar = std::make_shared<test::SyntheticLidar>(test::MakeHouse());
+  const auto drive = std::make_shared<test::Drive>(test::HouseDrive());
+  Input input;
+  input.num_scans = static_cast<size_t>(drive->duration_s() / 0.1) - 1;
+  input.read = [=](size_t i) { return lidar->Sweep([&](double t) { return drive->At(t); }, 0.1 * static_cast<double>(i)); };
+  input.truth_at = [=](double t) { return drive->At(t); };
+  return input;
+}
+
+std::optional<Input> RecordingInput(const std::string& folder, bool with_given) {
+  Expected<Recording> opened = Recording::Open(folder);
+  if (!opened) {
+    fmt::print(stderr, "{}\n", opened.error().message);
+    return std::nullopt;
+  }
+  const auto recording = std::make_shared<Recording>(std::move(*opened));
+  Input input;
+  input.num_scans = recording->size();
+  input.read = [=](size_t i) -> std::optional<Scan> {
+    Expected<Scan> scan = recording->Read(i);
+    return scan ? std::optional<Scan>(std::move(*scan)) : std::nullopt;
+  };
+  if (Expected<Trajectory> truth = ReadTum(folder + "/truth.tum")) {
+    input.truth_at = [t = std::move(*truth)](double stamp_s) { return InterpolatePose(t, stamp_s); };
+  }
+  if (with_given) input.given_at = [=](double stamp_s) { return InterpolatePose(recording->odometry(), stamp_s); };
+  return input;
+}
+
+std::optional<Odometry::GivenMotion> Given(const Input& input, const Scan& scan) {
+  if (!input.given_at || scan.time_s.empty()) return std::nullopt;
+  const double end_s = scan.stamp_s + *std::max_element(scan.time_s.begin(), scan.time_s.end());
+  const auto start = input.given_at(scan.stamp_s), end = input.given_at(end_s);
+  if (!start || !end) return std::nullopt;
+  return Odometry::GivenMotion{*start, *end};
+}
+
+struct Errors {
   double square_sum_m2 = 0, worst_m = 0, worst_z_m = 0, worst_rad = 0;
-  std::vector<double> times_ms;
-  Eigen::Isometry3d T_plan_odom = Eigen::Isometry3d::Identity();
-  int failed = 0, iterations = 0;
-  for (double t = 0; t + 0.1 < drive.duration_s(); t += 0.1) {
-    const runtime::Scan scan = lidar.Sweep([&](double s) { return drive.At(s); }, t);
-    const auto begin = std::chrono::steady_clock::now();
-    const runtime::OdometryResult r = odometry.Register(scan, std::nullopt);
-    times_ms.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
-    if (times_ms.size() == 1) T_plan_odom = drive.At(0) * r.T_odom_lidar.inverse();
-    const Eigen::Isometry3d off = drive.At(t).inverse() * T_plan_odom * r.T_odom_lidar;
+  int count = 0;
+  void Add(const Eigen::Isometry3d& off) {
     const double error_m = off.translation().norm();
     square_sum_m2 += error_m * error_m;
     worst_m = std::max(worst_m, error_m);
     worst_z_m = std::max(worst_z_m, std::abs(off.translation().z()));
     worst_rad = std::max(worst_rad, Eigen::AngleAxisd(off.linear()).angle());
+    ++count;
+  }
+};
+
+void PrintSurfaces(const SGraph& graph, const Eigen::Isometry3d& T_plan_map) {
+  for (const MapSurface& s : graph.surfaces) {
+    if (s.observations.empty()) continue;
+    const Plane plane = s.plane.Transformed(T_plan_map);
+    const Eigen::Vector3d a = T_plan_map * Eigen::Vector3d(s.start.x(), s.start.y(), s.z_min_m);
+    const Eigen::Vector3d b = T_plan_map * Eigen::Vector3d(s.end.x(), s.end.y(), s.z_max_m);
+    fmt::print("{:4} {} n ({:6.3f} {:6.3f} {:6.3f}) d {:7.3f} from ({:.2f} {:.2f} {:.2f}) to ({:.2f} {:.2f} {:.2f}), {:.2f} m2, {} keyframes, {:.0f} points\n", s.id,
+               s.kind == SurfaceKind::kWall ? "wall   " : s.kind == SurfaceKind::kFloor ? "floor  " : "ceiling", plane.n.x(), plane.n.y(), plane.n.z(), plane.d, a.x(),
+               a.y(), a.z(), b.x(), b.y(), b.z(), s.area_m2, s.observations.size(), s.num_points);
+  }
+}
+
+void Run(const Input& input, bool surfaces) {
+  Odometry odometry;
+  Mapper mapper;
+  Timer odometry_timer, mapper_timer;
+  Errors errors;
+  std::optional<Eigen::Isometry3d> T_plan_odom;
+  int failed = 0;
+  double length_m = 0, iterations = 0;
+  std::optional<Eigen::Vector3d> last;
+  for (size_t i = 0; i < input.num_scans; ++i) {
+    const std::optional<Scan> scan = input.read(i);
+    if (!scan) continue;
+    const std::optional<Odometry::GivenMotion> given = Given(input, *scan);
+    odometry_timer.Start();
+    const OdometryResult r = odometry.Register(*scan, given);
+    odometry_timer.Stop();
+    mapper_timer.Start();
+    if (r.ok) mapper.AddScan(r.deskewed, r.T_odom_lidar);
+    mapper_timer.Stop();
     failed += r.ok ? 0 : 1;
     iterations += r.iterations;
-    if (std::getenv("VERBOSE") != nullptr)
-      fmt::print("{:.1f} err {:.4f} {:.4f} {:.4f} rot {:.4f} it {} inl {} rms {:.4f}\n", t, off.translation().x(), off.translation().y(), off.translation().z(),
-                 Eigen::AngleAxisd(off.linear()).angle() * 57.2958, r.iterations, r.num_inliers, r.rms_m);
+    if (last) length_m += (r.T_odom_lidar.translation() - *last).norm();
+    last = r.T_odom_lidar.translation();
+    const std::optional<Eigen::Isometry3d> truth = input.truth_at ? input.truth_at(scan->stamp_s) : std::nullopt;
+    if (truth && !T_plan_odom) T_plan_odom = *truth * r.T_odom_lidar.inverse();
+    if (truth) errors.Add(truth->inverse() * *T_plan_odom * r.T_odom_lidar);
   }
-  const double n = static_cast<double>(times_ms.size());
-  double sum_ms = 0;
-  for (const double ms : times_ms) sum_ms += ms;
-  std::sort(times_ms.begin(), times_ms.end());
-  fmt::print("house, {:.1f} m, {:.1f} s, {} scans ({} failed): ATE {:.4f} m rms, {:.4f} m worst (z {:.4f} m), {:.3f} deg worst; {:.2f} ms/scan mean, {:.2f} p95; {:.1f} iterations\n",
-             drive.length_m(), drive.duration_s(), times_ms.size(), failed, std::sqrt(square_sum_m2 / n), worst_m, worst_z_m, worst_rad * 57.29578, sum_ms / n,
-             times_ms[static_cast<size_t>(0.95 * n)], iterations / n);
+  mapper.Flush();
+  fmt::print("{} scans ({} failed), {:.1f} m\n", input.num_scans, failed, length_m);
+  if (errors.count > 0) {
+    fmt::print("error, aligned at the start: {:.4f} m rms, {:.4f} m worst (z {:.4f} m), {:.3f} deg worst\n", std::sqrt(errors.square_sum_m2 / errors.count),
+               errors.worst_m, errors.worst_z_m, errors.worst_rad * 57.29578);
+  }
+  fmt::print("odometry: {}; {:.1f} iterations\n", odometry_timer.Summary(), iterations / static_cast<double>(input.num_scans));
+  fmt::print("mapper:   {}; {} keyframes, {} surfaces\n", mapper_timer.Summary(), mapper.graph().keyframes.size(),
+             std::count_if(mapper.graph().surfaces.begin(), mapper.graph().surfaces.end(), [](const MapSurface& s) { return !s.observations.empty(); }));
+  if (surfaces) PrintSurfaces(mapper.graph(), T_plan_odom.value_or(Eigen::Isometry3d::Identity()));
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::vector<std::string> arguments(argv + 1, argv + argc);
+  const auto has = [&](const char* flag) { return std::find(arguments.begin(), arguments.end(), flag) != arguments.end(); };
+  const bool synthetic = arguments.empty() || arguments[0].starts_with("--");
+  const std::optional<Input> input = synthetic ? std::optional<Input>(SyntheticInput()) : RecordingInput(arguments[0], has("--given"));
+  if (!input) return 2;
+  Run(*input, has("--surfaces"));
 }

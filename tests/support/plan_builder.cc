@@ -109,7 +109,8 @@ uint32_t PlanBuilder::Prismatic(ElementKind kind, const std::string& guid, const
   return static_cast<uint32_t>(plan.elements.size() - 1);
 }
 
-uint32_t PlanBuilder::Wall(const std::string& guid, const Eigen::Vector2d& from, const Eigen::Vector2d& to, double thickness_m, double z_min_m, double z_max_m) {
+uint32_t PlanBuilder::Wall(const std::string& guid, const Eigen::Vector2d& from, const Eigen::Vector2d& to, double thickness_m,
+                           double z_min_m, double z_max_m) {
   const Eigen::Vector2d along = (to - from).normalized(), half = 0.5 * thickness_m * Eigen::Vector2d(-along.y(), along.x());
   const uint32_t wall = Prismatic(ElementKind::kWall, guid, {from - half, to - half, to + half, from + half}, z_min_m, z_max_m);
   lines_[wall] = {from, to, thickness_m};
@@ -131,7 +132,8 @@ uint32_t PlanBuilder::Opening(const std::string& guid, uint32_t wall, double alo
   return static_cast<uint32_t>(plan.openings.size() - 1);
 }
 
-uint32_t PlanBuilder::Fill(ElementKind kind, const std::string& guid, uint32_t wall, double along_m, double width_m, double z_min_m, double z_max_m) {
+uint32_t PlanBuilder::Fill(ElementKind kind, const std::string& guid, uint32_t wall, double along_m, double width_m, double z_min_m,
+                           double z_max_m) {
   PlanElement e;
   e.kind = kind;
   e.guid = e.name = e.location.guid = guid;

@@ -20,7 +20,8 @@ class PlanBuilder {
   PlanBuilder& On(uint32_t storey);
 
   // Along the centre line, square ends.
-  uint32_t Wall(const std::string& guid, const Eigen::Vector2d& from, const Eigen::Vector2d& to, double thickness_m, double z_min_m = 0, double z_max_m = 2.5);
+  uint32_t Wall(const std::string& guid, const Eigen::Vector2d& from, const Eigen::Vector2d& to, double thickness_m, double z_min_m = 0,
+                double z_max_m = 2.5);
   uint32_t Prismatic(ElementKind kind, const std::string& guid, const Ring& ring, double z_min_m, double z_max_m);
 
   // A void of the wall's full thickness, `along_m` from the start of the centre line to its middle; bodies of walls stay uncut.
@@ -44,8 +45,8 @@ class PlanBuilder {
   std::map<uint32_t, CentreLine> lines_;  // of walls, by element
 };
 
-// The outer walls 0.3 m thick around [0,8] x [0,4] inside, an inner wall 0.2 m thick at x = 5 with door "D" (0.9 m wide, middle at y = 1.5), outer door
-// "E" in the south wall at x = 2, window "W" in the east wall at y = 2, slabs at 0 and 2.5 m, spaces "West" and "East".
+// The outer walls 0.3 m thick around [0,8] x [0,4] inside, an inner wall 0.2 m thick at x = 5 with door "D" (0.9 m wide, middle at y
+// = 1.5), outer door "E" in the south wall at x = 2, window "W" in the east wall at y = 2, slabs at 0 and 2.5 m, spaces "West" and "East".
 [[nodiscard]] compiler::PlanIr TwoRooms();
 
 // The same plan after x -> Rz(yaw) x + translation.

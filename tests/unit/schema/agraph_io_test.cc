@@ -70,7 +70,9 @@ TEST(AGraphIo, SurvivesEveryTruncation) {
   const std::vector<uint8_t> bytes = WriteAGraph(house);
   for (size_t size = 0; size < bytes.size(); size += 7) {
     const std::vector<uint8_t> cut(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(size));
-    EXPECT_FALSE(ReadAGraph(cut)) << size;
+    const Expected<AGraph> read = ReadAGraph(cut);
+    // The last bytes may be padding.
+    EXPECT_TRUE(!read || (bytes.size() - size < 8 && AGraphToJson(*read) == AGraphToJson(house))) << size;
   }
 }
 

@@ -44,8 +44,10 @@ TEST(PlanIrJson, RefusesOtherText) {
   EXPECT_EQ(PlanIrFromJson("").error().code, ErrorCode::kFileUnreadable);
   EXPECT_EQ(PlanIrFromJson("{}").error().code, ErrorCode::kFileUnreadable);
   EXPECT_EQ(PlanIrFromJson("[1, 2").error().code, ErrorCode::kFileUnreadable);
-  EXPECT_EQ(PlanIrFromJson(R"({"storeys":[{"elevation_m":"high"}],"elements":[],"openings":[],"spaces":[]})").error().code, ErrorCode::kFileUnreadable);
-  EXPECT_EQ(PlanIrFromJson(R"({"storeys":[],"elements":[{"kind":99}],"openings":[],"spaces":[]})").error().code, ErrorCode::kFileUnreadable);
+  EXPECT_EQ(PlanIrFromJson(R"({"storeys":[{"elevation_m":"high"}],"elements":[],"openings":[],"spaces":[]})").error().code,
+            ErrorCode::kFileUnreadable);
+  EXPECT_EQ(PlanIrFromJson(R"({"storeys":[],"elements":[{"kind":99}],"openings":[],"spaces":[]})").error().code,
+            ErrorCode::kFileUnreadable);
 }
 
 }  // namespace

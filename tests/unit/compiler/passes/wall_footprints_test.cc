@@ -69,6 +69,21 @@ TEST(CutFootprints, LowWallsBoundRoomsOnlyUnderARoof) {
   EXPECT_EQ(CountOf(sink, DiagnosticKind::kWallOffSection), 2u);
 }
 
+TEST(CutFootprints, PostsOfACurtainWallStandInABand) {
+  test::PlanBuilder b;
+  b.Storey("0", 0);
+  for (double x : {0.0, 1.5, 3.0}) b.Prismatic(ElementKind::kCurtainWall, "curtain", test::Rectangle({x, 0}, {x + 0.05, 0.15}), 0, 2.5);
+  // Round a corner: no rectangle, but a rail along the foot.
+  for (double x : {0.0, 3.0}) b.Prismatic(ElementKind::kCurtainWall, "corner", test::Rectangle({x, 5}, {x + 0.1, 5.1}), 0, 2.5);
+  b.Prismatic(ElementKind::kCurtainWall, "corner", test::Rectangle({3.0, 8}, {3.1, 8.1}), 0, 2.5);
+  b.Prismatic(ElementKind::kCurtainWall, "corner", {{0, 5}, {3.1, 5}, {3.1, 8.1}, {3, 8.1}, {3, 5.1}, {0, 5.1}}, 0, 0.05);
+  DiagnosticSink sink;
+  const FloorIr floors = Cut(b.plan, sink);
+  ASSERT_EQ(floors.floors[0].footprints.size(), 2u);
+  EXPECT_NEAR(RegionArea(floors.floors[0].footprints[0].rings), 3.05 * 0.15, 1e-6);
+  EXPECT_NEAR(RegionArea(floors.floors[0].footprints[1].rings), 3.1 * 0.1 + 3.0 * 0.1, 1e-6);
+}
+
 TEST(CutFootprints, WallsWithoutSolidAndOpenOnesAreDiagnosed) {
   test::PlanBuilder b;
   b.Storey("0", 0);

@@ -71,6 +71,49 @@ TEST(Odometry, WorksWithoutTimes) {
   EXPECT_LT(drift.rms_m, 0.06);
 }
 
+TEST(Odometry, FollowsTurnsBetweenRareScans) {
+  // Two snapshots a second, up to 30 degrees apart.
+  test::SyntheticLidarOptions options = Sparse();
+  options.with_time = false;
+  const test::SyntheticLidar lidar(test::MakeHouse(), options);
+  const test::Drive drive = test::HouseDrive();
+  Odometry odometry;
+  Eigen::Isometry3d T_plan_odom = Eigen::Isometry3d::Identity();
+  double worst_m = 0;
+  for (double t = 0; t < 30; t += 0.5) {
+    const Eigen::Isometry3d T = drive.At(t);
+    const OdometryResult r = odometry.Register(lidar.Sweep([&](double) { return T; }, t), std::nullopt);
+    EXPECT_TRUE(r.ok) << t;
+    if (t == 0) T_plan_odom = T * r.T_odom_lidar.inverse();
+    worst_m = std::max(worst_m, (T_plan_odom * r.T_odom_lidar.translation() - T.translation()).norm());
+  }
+  EXPECT_LT(worst_m, 0.08);
+}
+
+// A hand-held recording in a hall: no times per point, two scans a second, turns of up to 43 degrees between them.
+TEST(Odometry, HandHeldRecordingStaysTogether) {
+  const std::string folder = std::string(PLUMB_SOURCE_DIR) + "/../shared/data/lidar/hilti_uzh_run2";
+  const Expected<Trajectory> reference = ReadTum(folder + "/reference_level.tum");
+  const Expected<Recording> recording = Recording::Open(folder);
+  if (!reference || !recording) GTEST_SKIP() << "no recording at " << folder;
+  Odometry odometry;
+  std::optional<Eigen::Isometry3d> T_reference_odom;
+  double square_sum_m2 = 0;
+  int count = 0;
+  for (size_t i = 0; i < recording->size(); ++i) {
+    const Expected<Scan> scan = recording->Read(i);
+    ASSERT_TRUE(scan);
+    const OdometryResult r = odometry.Register(*scan, std::nullopt);
+    const std::optional<Eigen::Isometry3d> truth = InterpolatePose(*reference, scan->stamp_s, 1.0);
+    if (!truth) continue;
+    if (!T_reference_odom) T_reference_odom = *truth * r.T_odom_lidar.inverse();
+    square_sum_m2 += (*T_reference_odom * r.T_odom_lidar.translation() - truth->translation()).squaredNorm();
+    ++count;
+  }
+  ASSERT_GT(count, 40);
+  EXPECT_LT(std::sqrt(square_sum_m2 / count), 0.3);
+}
+
 TEST(Odometry, GivenOdometryWithScaleErrorDoesNoHarm) {
   const test::Drive drive = test::HouseDrive();
   const auto given_at = [&](double t) {

@@ -48,7 +48,7 @@ class EndToEnd : public ::testing::Test {
     ASSERT_EQ(Plumb(folder_, "localize plan.agraph rec/ -o run/"), 0);
   }
   static void TearDownTestSuite() {
-    if (!HasFailure()) fs::remove_all(folder_);
+    if (!::testing::UnitTest::GetInstance()->current_test_suite()->Failed()) fs::remove_all(folder_);
   }
 
   static fs::path folder_;

@@ -50,9 +50,7 @@ std::string Notes(const RunInfo& info, const Deviations& deviations) {
     out += fmt::format("<p class=\"note bad\">The robot was not localized in this plan{}{}. No deviations can be stated.</p>\n",
                        info.last_reason.empty() ? "" : ": ", EscapeXml(info.last_reason));
   }
-  if (!deviations.gauge.empty()) {
-    out += fmt::format("<p class=\"note\">Deviations are relative to each other; what counts as standing still: {}.</p>\n", EscapeXml(deviations.gauge));
-  }
+  if (!deviations.gauge.empty()) out += fmt::format("<p class=\"note\">{}</p>\n", EscapeXml(deviations.gauge));
   return out;
 }
 
@@ -67,26 +65,23 @@ std::string Figure(const AGraph& plan, StoreyId storey, const Run& run, const st
       DrawWallNumbers(plan, storey, rows, sheet), DrawScaleBar(sheet));
 }
 
-// Storeys that the robot saw something of; all of them where it saw nothing.
-std::set<StoreyId> SeenStoreys(const AGraph& plan, const Run& run) {
-  std::set<StoreyId> seen;
-  for (const SurfaceEntry& s : run.deviations.surfaces) {
-    if (s.status != "unobserved") seen.insert(plan.surfaces[s.id.index()].storey);
-  }
-  for (const auto& pose : run.smoothed) seen.insert(StoreyAt(plan, pose.T.translation().z()));
-  for (size_t i = 0; seen.empty() && i < plan.storeys.size(); ++i) seen.insert(StoreyId(i));
-  return seen;
+// Storeys that the robot was on; all of them where its way is not known.
+std::set<StoreyId> VisitedStoreys(const AGraph& plan, const Run& run) {
+  std::set<StoreyId> visited;
+  for (const auto& pose : run.smoothed) visited.insert(StoreyAt(plan, pose.T.translation().z()));
+  for (size_t i = 0; run.smoothed.empty() && i < plan.storeys.size(); ++i) visited.insert(StoreyId(i));
+  return visited;
 }
 
 std::string Figures(const AGraph& plan, const Run& run, const std::vector<WallRow>& rows) {
   const double limit_m = ColorLimit(run.deviations);
   std::string out = LegendHtml(limit_m), others;
-  const std::set<StoreyId> seen = SeenStoreys(plan, run);
+  const std::set<StoreyId> visited = VisitedStoreys(plan, run);
   for (size_t i = 0; i < plan.storeys.size(); ++i) {
     const StoreyId storey(i);
     const bool has_walls = std::any_of(plan.walls.begin(), plan.walls.end(), [&](const Wall& w) { return w.storey == storey; });
     if (!has_walls) continue;
-    (seen.contains(storey) ? out : others) += Figure(plan, storey, run, rows, limit_m);
+    (visited.contains(storey) ? out : others) += Figure(plan, storey, run, rows, limit_m);
   }
   if (!others.empty()) out += fmt::format("<details><summary>Storeys that were not visited</summary>\n{}</details>\n", others);
   return out;
@@ -122,11 +117,13 @@ std::string WallTable(const AGraph& plan, const std::vector<WallRow>& rows) {
       body += WallRowHtml(plan, row);
     }
   }
+  const std::string rest =
+      unobserved == 0 ? "" : fmt::format("<p class=\"note\">Walls that were not observed well enough to judge: {} of {}.</p>\n", unobserved, rows.size());
   return fmt::format(
       "<h2>Walls</h2>\n<div class=\"scroll\"><table><thead><tr><th class=\"t\"></th><th class=\"t\">wall</th><th class=\"t\">storey</th><th class=\"t\">"
       "verdict</th><th>displacement &plusmn; &sigma;, cm</th><th>turn &plusmn; &sigma;, &deg;</th><th>P(deviated)</th><th>seen, m&sup2;</th><th>points</th>"
-      "</tr></thead><tbody>\n{}</tbody></table></div>\n<p class=\"note\">{} further walls were not observed well enough to judge.</p>\n",
-      body, unobserved);
+      "</tr></thead><tbody>\n{}</tbody></table></div>\n{}",
+      body, rest);
 }
 
 std::string RoomTable(const AGraph& plan, const Deviations& deviations) {

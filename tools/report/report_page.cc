@@ -19,7 +19,7 @@ h1{font-size:24px;margin:0}h2{font-size:18px;margin:36px 0 10px}
 .tile b{display:block;font-size:22px;font-variant-numeric:tabular-nums}.tile span{color:var(--muted);font-size:13px}
 .note{border-left:3px solid var(--line);padding:2px 12px;color:var(--muted);margin:16px 0}
 .note.bad{border-color:var(--bad);color:var(--fg)}
-figure{margin:0;border:1px solid var(--line);border-radius:6px;overflow:hidden}
+figure{margin:0 0 14px;border:1px solid var(--line);border-radius:6px;overflow:hidden}
 figure svg{display:block;width:100%;height:auto;max-height:1000px}
 figcaption{padding:8px 14px;border-bottom:1px solid var(--line);background:var(--panel);font-weight:600}
 details{margin-top:12px}summary{cursor:pointer;color:var(--muted)}

@@ -136,6 +136,11 @@ std::string MatcherOptions::Check() const {
     return bad("accept_min_consistent_ratio", accept_min_consistent_ratio, "in [0, 1]");
   }
   if (!(vouch_explained_ratio > 0)) return bad("vouch_explained_ratio", vouch_explained_ratio, "positive");
+  if (!(vouch_lead_ratio > 0)) return bad("vouch_lead_ratio", vouch_lead_ratio, "positive");
+  if (!(vouch_lead_nats > 0)) return bad("vouch_lead_nats", vouch_lead_nats, "positive");
+  if (vouch_min_planes < 3) return bad("vouch_min_planes", vouch_min_planes, "at least 3");
+  if (!(vouch_max_through_ratio >= 0)) return bad("vouch_max_through_ratio", vouch_max_through_ratio, "at least 0");
+  if (!(vouch_sigma_xy_m > 0)) return bad("vouch_sigma_xy_m", vouch_sigma_xy_m, "positive");
   if (!(accept_max_through_ratio >= 0)) return bad("accept_max_through_ratio", accept_max_through_ratio, "at least 0");
   if (!(accept_scale_error > 0)) return bad("accept_scale_error", accept_scale_error, "positive");
   return {};

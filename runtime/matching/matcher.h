@@ -29,9 +29,16 @@ struct MatcherOptions {
   double accept_sigma_yaw_rad = 0.0087;
   int accept_min_planes = 5;                  // of the plan's walls that the map agrees with; one more for 4 rooms, two for 32, ...
   double accept_min_consistent_ratio = 0.35;  // of the map's wall length; the rest may be furniture and deviated walls
-  double vouch_explained_ratio = 0.85;        // of the rays end where the plan says: then 4 planes do, whatever share of the map they are
   double accept_max_through_ratio = 0.02;     // of the rays: may pass through walls of the plan
   double accept_scale_error = 0.025;          // the building's size against the plan's, with two sigmas
+  // Rays vouch for a place that far fewer walls would not: in furnished or much deviating buildings. They do where this share of them ends on
+  // what the plan has there, and the place leads every rival, the plan's mirror image and "outside" by this much of its own log-likelihood.
+  double vouch_explained_ratio = 0.65;
+  double vouch_lead_ratio = 0.4;
+  double vouch_lead_nats = 30;
+  int vouch_min_planes = 4;
+  double vouch_max_through_ratio = 0.06;
+  double vouch_sigma_xy_m = 0.25;             // the place; which of the walls deviate is left to the coupling
   [[nodiscard]] std::string Check() const;
 };
 

@@ -11,7 +11,6 @@ namespace {
 
 constexpr double kSamePlace_m = 0.5, kSameYaw_rad = 0.0873, kSameHeight_m = 1.0;
 constexpr double kUnknownSigma = 1e3;
-constexpr int kPlanesWithRays = 4;
 
 // A direction that no wall fixes has no finite sigma; a weak prior keeps the inverse defined and says "unknown".
 void SetSigmas(const Eigen::Matrix3d& information, Hypothesis& hypothesis) {
@@ -69,13 +68,21 @@ int RequiredPlanes(size_t num_rooms, const MatcherOptions& options) {
   return options.accept_min_planes + static_cast<int>(std::lround(std::log10(std::max<double>(1, static_cast<double>(num_rooms)))));
 }
 
-std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, int required_planes, const MatcherOptions& options) {
+bool RaysVouch(const std::vector<Candidate>& sorted, double mirrored, const MatcherOptions& options) {
+  const RayEvidence& best = sorted.front().rays;
+  double rival = std::max(0.0, mirrored);
+  for (size_t i = 1; i < sorted.size(); ++i) rival = std::max(rival, sorted[i].rays.log_likelihood);
+  const double lead = best.log_likelihood - rival;
+  return best.explained_ratio >= options.vouch_explained_ratio && lead >= options.vouch_lead_nats &&
+         lead >= options.vouch_lead_ratio * best.log_likelihood;
+}
+
+std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, int required_planes, bool rays_vouch,
+                  const MatcherOptions& options) {
   const WallFit& fit = candidate.fit;
-  // Where nearly every ray ends on what the plan has there, furniture included, few bare or undisplaced walls are no doubt: the position
-  // needs three planes, a fourth tells the building from one that shares a corner.
-  const bool rays_vouch = candidate.rays.explained_ratio >= options.vouch_explained_ratio;
-  if (rays_vouch) required_planes = std::min(required_planes, kPlanesWithRays);
-  if (hypothesis.sigma_xy_m > options.accept_sigma_xy_m || hypothesis.sigma_yaw_rad > options.accept_sigma_yaw_rad) {
+  if (rays_vouch) required_planes = std::min(required_planes, options.vouch_min_planes);
+  const double max_sigma_xy_m = rays_vouch ? options.vouch_sigma_xy_m : options.accept_sigma_xy_m;
+  if (hypothesis.sigma_xy_m > max_sigma_xy_m || hypothesis.sigma_yaw_rad > options.accept_sigma_yaw_rad) {
     return "too few walls agree to fix the position in every direction";
   }
   if (fit.consistent_planes < required_planes) {
@@ -84,7 +91,7 @@ std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, int 
   if (!rays_vouch && fit.consistent_ratio < options.accept_min_consistent_ratio) {
     return fmt::format("only {:.0f} % of the walls seen agree with the plan", 100 * fit.consistent_ratio);
   }
-  if (candidate.rays.through_ratio > options.accept_max_through_ratio) {
+  if (candidate.rays.through_ratio > (rays_vouch ? options.vouch_max_through_ratio : options.accept_max_through_ratio)) {
     return fmt::format("{:.1f} % of the rays went through walls of the plan", 100 * candidate.rays.through_ratio);
   }
   if (std::abs(fit.scale_error) + 2 * fit.sigma_scale > options.accept_scale_error) {
@@ -102,6 +109,8 @@ MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, con
   }
   const size_t n = std::min(sorted.size(), static_cast<size_t>(options.keep_hypotheses));
   for (size_t i = 0; i < n; ++i) result.hypotheses.push_back(ToHypothesis(sorted[i], map, plan.origin));
+  const bool rays_vouch = RaysVouch(sorted, mirrored, options);
+  if (rays_vouch) SetSigmas(sorted.front().fit.place_information, result.hypotheses.front());
   SetProbabilities(result, std::max(0.0, mirrored));
   const Hypothesis& best = result.hypotheses.front();
   if (best.log_likelihood < options.accept_margin_nats) {
@@ -112,7 +121,7 @@ MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, con
     result.reason = fmt::format("a mirror image of the plan fits about as well ({:+.1f} nats)", mirrored - best.log_likelihood);
     return result;
   }
-  result.reason = Doubt(sorted.front(), best, RequiredPlanes(plan.rooms.size(), options), options);
+  result.reason = Doubt(sorted.front(), best, RequiredPlanes(plan.rooms.size(), options), rays_vouch, options);
   if (!result.reason.empty()) return result;
   const auto rivals = std::count_if(result.hypotheses.begin() + 1, result.hypotheses.end(), [&](const Hypothesis& h) {
     return best.log_likelihood - h.log_likelihood < options.accept_margin_nats;

@@ -30,8 +30,11 @@ struct Candidate {
 // Planes that must agree in a plan of so many rooms: the more there are, the more of them look alike by chance.
 [[nodiscard]] int RequiredPlanes(size_t num_rooms, const MatcherOptions& options);
 
+// Whether the rays alone tell the place (see MatcherOptions). `sorted` must not be empty.
+[[nodiscard]] bool RaysVouch(const std::vector<Candidate>& sorted, double mirrored, const MatcherOptions& options);
+
 // Why this pose alone, rivals aside, is not yet trusted; empty if it is.
 [[nodiscard]] std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, int required_planes,
-                                const MatcherOptions& options);
+                                bool rays_vouch, const MatcherOptions& options);
 
 }  // namespace plumb::runtime

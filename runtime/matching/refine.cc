@@ -20,6 +20,7 @@ constexpr double kMinFaceOverlap_m = 0.5;
 constexpr double kGroupWidth_m = 0.12;
 constexpr double kDirectionWidth_rad = 0.26;
 constexpr double kMinMajority = 1.5, kMinMajorityMargin = 0.75;  // in walls
+constexpr double kContestedSigma_m = 0.2;                 // of a wall in a direction whose walls do not agree on the displacement
 constexpr size_t kMaxConsensusGroups = 24;
 
 // The pairs of one physical wall: they move together, so they vote once.
@@ -298,7 +299,7 @@ int CountPlanes(const PlanIndex& plan, const std::vector<double>& overlap_m) {
 void Assess(const PlanIndex& plan, const MapView& map, const WallProblem& problem, WallFit& fit) {
   const std::vector<WallGroup>& groups = problem.groups();
   const std::vector<bool> clear = InMajorityDirection(problem, fit.pose);
-  Eigen::Matrix4d H = Eigen::Matrix4d::Zero(), H_clear = Eigen::Matrix4d::Zero();
+  Eigen::Matrix4d H = Eigen::Matrix4d::Zero(), H_clear = Eigen::Matrix4d::Zero(), H_contested = Eigen::Matrix4d::Zero();
   Eigen::Vector4d g = Eigen::Vector4d::Zero(), unused = Eigen::Vector4d::Zero();
   std::vector<double> overlap_m(plan.faces().size(), 0.0);
   double consistent_m = 0;
@@ -306,7 +307,11 @@ void Assess(const PlanIndex& plan, const MapView& map, const WallProblem& proble
     if (problem.SquaredDistance(groups[i], fit.pose) > kTolerance_m * kTolerance_m) continue;
     const double weight = groups[i].weight / (kWallSigma_m * kWallSigma_m);
     problem.AddNormalEquations(groups[i], fit.pose, weight, H, g);
-    if (clear[i]) problem.AddNormalEquations(groups[i], fit.pose, weight, H_clear, unused);
+    if (clear[i]) {
+      problem.AddNormalEquations(groups[i], fit.pose, weight, H_clear, unused);
+    } else {
+      problem.AddNormalEquations(groups[i], fit.pose, groups[i].weight / (kContestedSigma_m * kContestedSigma_m), H_contested, unused);
+    }
     for (size_t k : groups[i].pairs) {
       overlap_m[problem.pair(k).face] += problem.pair(k).overlap_m;
       consistent_m += problem.pair(k).overlap_m;
@@ -315,6 +320,7 @@ void Assess(const PlanIndex& plan, const MapView& map, const WallProblem& proble
   fit.consistent_planes = CountPlanes(plan, overlap_m);
   fit.consistent_ratio = map.wall_length_m > 0 ? std::min(1.0, consistent_m / map.wall_length_m) : 0;
   fit.information = H_clear.topLeftCorner<3, 3>();
+  fit.place_information = (H_clear + H_contested).topLeftCorner<3, 3>();
   // With a weak prior, so that what no wall measures comes out as unknown instead of as a division by zero.
   const Eigen::Matrix4d covariance = (H + Eigen::Matrix4d(Eigen::Vector4d(1e-4, 1e-4, 1e-4, 1e-4).asDiagonal())).inverse();
   fit.sigma_scale = std::sqrt(covariance(3, 3));

@@ -24,6 +24,8 @@ struct WallFit {
   int consistent_planes = 0;       // planes of the plan that the map agrees with to within the wall tolerance
   double consistent_ratio = 0;     // of the map's wall length
   Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  // of (x, y, yaw), from directions in which a majority of walls agrees
+  // As above, with the other directions to within what walls deviate: the place, if not yet to the centimetre.
+  Eigen::Matrix3d place_information = Eigen::Matrix3d::Zero();
   double scale_error = 0, sigma_scale = 1e3;              // how much larger the building is than the plan, 0.01 = 1 %
 };
 

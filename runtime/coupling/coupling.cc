@@ -18,6 +18,8 @@ constexpr double kMinOverlap_m = 0.2;
 constexpr double kMinSizeShare = 0.5;      // a line behind another is the wall if it has this share of the front's area, ...
 constexpr double kHigher_m = 0.10;         // ... or is seen this much higher up
 constexpr double kFrontPenalty_nats = 8;   // for taking a surface with a wall visible behind it for the wall
+constexpr double kOpeningMargin_m = 0.12;  // frames reach this far beyond an opening's stated size
+constexpr double kInOpeningRatio = 0.8;    // of a patch's length: then it is a leaf, a pane or a frame, not the wall's face
 constexpr double kStepPerMetre = 0.01;     // lines are compared at a distance: allow for their direction errors
 
 // A wall patch of the map, in plan coordinates.
@@ -29,6 +31,33 @@ struct Patch {
   [[nodiscard]] double length() const { return (end - start).norm(); }
   [[nodiscard]] Eigen::Vector2d midpoint() const { return 0.5 * (start + end); }
 };
+
+// A doorway or window: here the wall has no face, whatever is seen there.
+struct WallOpening {
+  Eigen::Vector2d middle;
+  double width_m, z_min_m, z_max_m;
+};
+
+std::vector<std::vector<WallOpening>> OpeningsOfWalls(const AGraph& plan) {
+  std::vector<std::vector<WallOpening>> openings(plan.walls.size());
+  const auto add = [&](WallId wall, const Eigen::Vector3d& at, double width_m, double height_m) {
+    if (wall.valid()) openings[wall.index()].push_back({at.head<2>(), width_m, at.z(), at.z() + height_m});
+  };
+  for (const Doorway& d : plan.doorways) add(d.wall, d.position, d.width_m, d.height_m);
+  for (const Window& w : plan.windows) add(w.wall, w.position, w.width_m, w.height_m);
+  return openings;
+}
+
+bool InOpening(const Patch& patch, const std::vector<WallOpening>& openings, const Eigen::Vector2d& along) {
+  const double p0 = along.dot(patch.start), p1 = along.dot(patch.end);
+  for (const WallOpening& o : openings) {
+    if (patch.z_min < o.z_min_m - kOpeningMargin_m || patch.z_max > o.z_max_m + kOpeningMargin_m) continue;
+    const double middle = along.dot(o.middle), reach = 0.5 * o.width_m + kOpeningMargin_m;
+    const double covered = std::min(std::max(p0, p1), middle + reach) - std::max(std::min(p0, p1), middle - reach);
+    if (covered >= kInOpeningRatio * std::abs(p1 - p0)) return true;
+  }
+  return false;
+}
 
 struct Candidate {
   SurfaceId surface;
@@ -55,7 +84,7 @@ double OverlapRatio(double a0, double a1, double b0, double b1) {
 }
 
 std::optional<Candidate> Compare(const Patch& patch, SurfaceId id, const Surface& surface, const WallFrame& frame, const WallDeviation& known,
-                                 const CouplingOptions& options) {
+                                 const std::vector<WallOpening>& openings, const CouplingOptions& options) {
   const Eigen::Vector3d& n = surface.normal;
   const double yaw = std::atan2(n.x() * patch.normal.y() - n.y() * patch.normal.x(), n.head<2>().dot(patch.normal.head<2>()));
   if (std::abs(yaw - known.yaw_rad) > options.max_yaw_rad) return std::nullopt;
@@ -67,6 +96,7 @@ std::optional<Candidate> Compare(const Patch& patch, SurfaceId id, const Surface
   if (to - from < kMinOverlap_m || OverlapRatio(std::min(a0, a1), std::max(a0, a1), 0, surface.length_m()) < options.min_overlap_ratio) {
     return std::nullopt;
   }
+  if (InOpening(patch, openings, along)) return std::nullopt;
   const double middle = 0.5 * (from + to);
   const Eigen::Vector2d on_patch = patch.start + (middle - a0) / (a1 - a0) * (patch.end - patch.start);
   const Eigen::Vector2d on_plan = surface.start + middle * along;
@@ -224,13 +254,15 @@ std::vector<Match> MatchSurfaces(const SGraph& map, const AGraph& plan, const Ei
                                  const std::vector<WallDeviation>& known, const CouplingOptions& options) {
   const std::vector<WallFrame> frames = WallFrames(plan);
   const std::vector<Patch> patches = WallPatches(map, T_plan_map);
+  const std::vector<std::vector<WallOpening>> openings = OpeningsOfWalls(plan);
   std::vector<std::vector<Candidate>> candidates(patches.size());
   for (size_t i = 0; i < patches.size(); ++i) {
     for (size_t j = 0; j < plan.surfaces.size(); ++j) {
       const Surface& surface = plan.surfaces[j];
       if (!surface.wall.valid() || !IsFace(frames[surface.wall.index()], surface)) continue;
       const WallDeviation deviation = surface.wall.index() < known.size() ? known[surface.wall.index()] : WallDeviation{};
-      if (auto c = Compare(patches[i], SurfaceId(j), surface, frames[surface.wall.index()], deviation, options)) candidates[i].push_back(*c);
+      const size_t wall = surface.wall.index();
+      if (auto c = Compare(patches[i], SurfaceId(j), surface, frames[wall], deviation, openings[wall], options)) candidates[i].push_back(*c);
     }
   }
   const std::vector<std::vector<Candidate>> assigned = Assignment(patches, std::move(candidates), options).Solve();

@@ -7,6 +7,8 @@
 namespace plumb::runtime {
 namespace {
 
+constexpr int kMaxFailedScans = 10;
+
 // Milliseconds since construction or the last call of Lap.
 class Stopwatch {
  public:
@@ -25,7 +27,7 @@ class Stopwatch {
 struct ScanPlace {
   double stamp_s = 0;
   uint32_t keyframe = 0;
-  Eigen::Isometry3d T_kf_lidar = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d T_odom_lidar = Eigen::Isometry3d::Identity();
 };
 
 }  // namespace
@@ -75,7 +77,9 @@ struct Localizer::Impl {
   Verdict verdict = Verdict::kSearching;
   MatchResult match;
   JointResult joint;
-  Eigen::Isometry3d T_plan_map = Eigen::Isometry3d::Identity();
+  Eigen::Isometry3d T_plan_map = Eigen::Isometry3d::Identity();  // of the last fix
+  bool ever_fixed = false;
+  int failed_scans = 0;  // in a row
   std::vector<WallDeviation> known;  // per plan wall, as estimated so far
   std::vector<Eigen::Isometry3d> rivals;  // of the fix, T_plan_map each
   int votes_against = 0;
@@ -102,6 +106,7 @@ struct Localizer::Impl {
     T_plan_map = match.hypotheses.front().T_plan_map;
     for (size_t i = 1; i < match.hypotheses.size(); ++i) rivals.push_back(match.hypotheses[i].T_plan_map);
     verdict = Verdict::kLocalized;
+    ever_fixed = true;
     Optimize(false);
   }
 
@@ -113,7 +118,7 @@ struct Localizer::Impl {
     JointOptions joint_options = options.joint;
     joint_options.covariances = covariances;
     JointResult result = OptimizeJointly(mapper.graph(), plan, matches, T_plan_map, joint_options);
-    if (!result.converged) return;
+    if (result.T_map_kf.empty()) return;  // unusable; a solution short of its last digit is not
     joint = std::move(result);
     T_plan_map = joint.T_plan_map;
     for (const WallEstimate& wall : joint.walls) known[wall.wall.index()] = wall.deviation;
@@ -130,6 +135,9 @@ struct Localizer::Impl {
     votes_against = best_rival > own + options.rival_margin_nats ? votes_against + 1 : 0;
     if (votes_against < options.lost_after) return;
     verdict = Verdict::kLost;
+    // The plan has bent the map to a wrong place: back to what odometry says. (Surfaces that were merged meanwhile stay merged.)
+    for (Keyframe& keyframe : mapper.mutable_graph().keyframes) keyframe.T_map_kf = keyframe.T_odom_kf;
+    mapper.OnPosesChanged();
     ForgetFix();
   }
 
@@ -152,12 +160,15 @@ struct Localizer::Impl {
 
   void Remember(double stamp_s, const Eigen::Isometry3d& T_odom_lidar) {
     const std::vector<Keyframe>& keyframes = mapper.graph().keyframes;
-    if (keyframes.empty()) {
-      places.push_back({stamp_s, 0, T_odom_lidar});
-      return;
-    }
-    const Keyframe& newest = keyframes.back();
-    places.push_back({stamp_s, newest.id, newest.T_odom_kf.inverse() * T_odom_lidar});
+    places.push_back({stamp_s, keyframes.empty() ? 0 : keyframes.back().id, T_odom_lidar});
+  }
+
+  // Scans that registration could not place stay out of the map; after a second of them nobody knows where the robot is.
+  void CountFailures(bool ok) {
+    failed_scans = ok ? 0 : failed_scans + 1;
+    if (failed_scans < kMaxFailedScans || verdict != Verdict::kLocalized) return;
+    verdict = Verdict::kLost;
+    ForgetFix();
   }
 };
 
@@ -170,16 +181,15 @@ ScanVerdict Localizer::AddScan(const Scan& scan, const std::optional<Odometry::G
   Stopwatch watch;
   const OdometryResult registered = impl_->odometry.Register(scan, given);
   out.timing.push_back({"odometry", watch.Lap()});
-  const bool grew = impl_->mapper.AddScan(registered.deskewed, registered.T_odom_lidar);
+  impl_->CountFailures(registered.ok);
+  const bool grew = registered.ok && impl_->mapper.AddScan(registered.deskewed, registered.T_odom_lidar);
   out.timing.push_back({"mapping", watch.Lap()});
   if (grew) impl_->UpdateGraph(out.timing);
   impl_->Remember(scan.stamp_s, registered.T_odom_lidar);
   out.verdict = impl_->verdict;
-  if (out.verdict == Verdict::kLocalized) {
-    out.hypotheses = 1;
+  out.hypotheses = out.verdict == Verdict::kLocalized ? 1 : static_cast<int>(impl_->match.hypotheses.size());
+  if (impl_->ever_fixed) {
     out.T_plan_lidar = impl_->T_plan_map * impl_->mapper.T_map_odom() * registered.T_odom_lidar;
-  } else {
-    out.hypotheses = static_cast<int>(impl_->match.hypotheses.size());
   }
   return out;
 }
@@ -187,6 +197,11 @@ ScanVerdict Localizer::AddScan(const Scan& scan, const std::optional<Odometry::G
 void Localizer::Finish() {
   impl_->mapper.Flush();
   if (impl_->verdict == Verdict::kLocalized) impl_->Optimize(true);
+}
+
+std::optional<Eigen::Isometry3d> Localizer::T_plan_map() const {
+  if (impl_->verdict != Verdict::kLocalized) return std::nullopt;
+  return impl_->T_plan_map;
 }
 
 const SGraph& Localizer::map() const { return impl_->mapper.graph(); }
@@ -200,8 +215,8 @@ Trajectory Localizer::SmoothedTrajectory() const {
   const std::vector<Keyframe>& keyframes = impl_->mapper.graph().keyframes;
   out.reserve(impl_->places.size());
   for (const ScanPlace& place : impl_->places) {
-    const Eigen::Isometry3d T_map_kf = keyframes.empty() ? Eigen::Isometry3d::Identity() : keyframes[place.keyframe].T_map_kf;
-    out.push_back({place.stamp_s, impl_->T_plan_map * T_map_kf * place.T_kf_lidar});
+    const Keyframe& keyframe = keyframes[place.keyframe];  // there is one: the fix came after it
+    out.push_back({place.stamp_s, impl_->T_plan_map * keyframe.T_map_kf * keyframe.T_odom_kf.inverse() * place.T_odom_lidar});
   }
   return out;
 }

@@ -41,7 +41,7 @@ struct ScanVerdict {
   double stamp_s = 0;
   Verdict verdict = Verdict::kSearching;
   int hypotheses = 0;
-  std::optional<Eigen::Isometry3d> T_plan_lidar;  // when localized
+  std::optional<Eigen::Isometry3d> T_plan_lidar;  // at the stamp, from the first fix on; when lost, dead reckoning from the last one
   std::vector<StageTime> timing;
 };
 
@@ -61,11 +61,13 @@ class Localizer {
   // After the last scan (or whenever asked): a final solve over everything.
   void Finish();
 
+  // Where the map lies in the plan; none while not localized.
+  [[nodiscard]] std::optional<Eigen::Isometry3d> T_plan_map() const;
   [[nodiscard]] const SGraph& map() const;
   [[nodiscard]] const MatchResult& last_match() const;
   [[nodiscard]] const JointResult& estimate() const;
   [[nodiscard]] DeviationReport Deviations() const;
-  // All scans, plan frame, with all knowledge so far; empty before the first fix.
+  // All scans, plan frame, with all knowledge so far; empty while not localized.
   [[nodiscard]] Trajectory SmoothedTrajectory() const;
 
  private:

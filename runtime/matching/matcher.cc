@@ -137,6 +137,7 @@ std::string MatcherOptions::Check() const {
   }
   if (!(vouch_explained_ratio > 0)) return bad("vouch_explained_ratio", vouch_explained_ratio, "positive");
   if (!(vouch_lead_ratio > 0)) return bad("vouch_lead_ratio", vouch_lead_ratio, "positive");
+  if (!(vouch_nearly_all_ratio > 0)) return bad("vouch_nearly_all_ratio", vouch_nearly_all_ratio, "positive");
   if (!(vouch_lead_nats > 0)) return bad("vouch_lead_nats", vouch_lead_nats, "positive");
   if (vouch_min_planes < 3) return bad("vouch_min_planes", vouch_min_planes, "at least 3");
   if (!(vouch_max_through_ratio >= 0)) return bad("vouch_max_through_ratio", vouch_max_through_ratio, "at least 0");

@@ -32,10 +32,12 @@ struct MatcherOptions {
   double accept_max_through_ratio = 0.02;     // of the rays: may pass through walls of the plan
   double accept_scale_error = 0.025;          // the building's size against the plan's, with two sigmas
   // Rays vouch for a place that far fewer walls would not: in furnished or much deviating buildings. They do where this share of them ends on
-  // what the plan has there, and the place leads every rival, the plan's mirror image and "outside" by this much of its own log-likelihood.
+  // what the plan has there, and the place leads every rival, the plan's mirror image and "outside" by this many nats, and by this much of its
+  // own log-likelihood unless nearly all rays end where they should.
   double vouch_explained_ratio = 0.65;
-  double vouch_lead_ratio = 0.4;
   double vouch_lead_nats = 30;
+  double vouch_lead_ratio = 0.4;
+  double vouch_nearly_all_ratio = 0.9;
   int vouch_min_planes = 4;
   double vouch_max_through_ratio = 0.06;
   double vouch_sigma_xy_m = 0.25;             // the place; which of the walls deviate is left to the coupling

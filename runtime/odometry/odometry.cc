@@ -174,7 +174,10 @@ SweepPrior Odometry::Impl::Predict(double next_stamp_s, double next_sweep_s, con
   Matrix12d F = Matrix12d::Zero(), Q = Matrix12d::Zero();
   F.topLeftCorner<6, 6>().setIdentity();
   if (sweep_s > 0) F.topRightCorner<6, 6>().setIdentity();
-  if (given && last_given) {
+  // A given odometry that jumps between two sweeps was restarted: its step says nothing.
+  const bool continues = given && last_given && (last_given->T_end.translation() - given->T_start.translation()).norm() <=
+                                                    kMaxGivenSpeed_mps * std::max(next_stamp_s - stamp_s - sweep_s, 0.1);
+  if (continues) {
     const Eigen::Isometry3d moved = last_given->T_end.inverse() * given->T_start;
     prior.mean.T_start = motion.T_end * moved;
     Q.topLeftCorner<6, 6>() = GivenCovariance(moved);
@@ -301,7 +304,7 @@ OdometryResult Odometry::Register(const Scan& scan, const std::optional<GivenMot
     s.failures = aligned.ok ? 0 : s.failures + 1;
     if (aligned.ok && !s.first) s.LearnPredictionError(prior.mean, aligned.motion);
     if (aligned.ok || (s.failures >= kMaxFailures && !too_few)) s.Insert(prepared, aligned.motion);
-    if (aligned.ok) s.first.reset();
+    s.first.reset();  // `motion` is the first scan's only until now
     s.Advance(prepared, aligned, given);
     result.ok = aligned.ok;
     result.iterations = aligned.iterations;

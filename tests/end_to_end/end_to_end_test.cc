@@ -1,6 +1,7 @@
 // Plan in, recording in, pose and deviations out: the steps of tools/demo on a plan of our own and a short drive, through the program.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 #include <sys/wait.h>
 
 #include <cstdlib>
@@ -34,7 +35,7 @@ class EndToEnd : public ::testing::Test {
  protected:
   // One run for all tests: it takes a minute.
   static void SetUpTestSuite() {
-    folder_ = fs::path(::testing::TempDir()) / "plumb_end_to_end";
+    folder_ = fs::path(::testing::TempDir()) / ("plumb_end_to_end." + std::to_string(getpid()));
     fs::remove_all(folder_);
     fs::create_directories(folder_ / "truth");
     const std::string plan = std::string(PLUMB_SOURCE_DIR) + "/plans/site_office/plan.ifc";

@@ -7,14 +7,20 @@ function(plumb_library name)
   target_link_libraries(${name} PUBLIC ${ARG_DEPS} PRIVATE plumb_warnings ${ARG_PRIVATE_DEPS})
 endfunction()
 
-# plumb_test(NAME LABEL unit SOURCES a_test.cc DEPS plumb_schema ...): one GoogleTest program, its tests known to ctest.
+# plumb_test(NAME LABEL unit SOURCES a_test.cc DEPS plumb_schema ...): one GoogleTest program, its tests known to ctest
+# one by one, or with WHOLE as one (tests that share an expensive set-up).
 function(plumb_test name)
-  cmake_parse_arguments(ARG "" "LABEL;TIMEOUT" "SOURCES;DEPS" ${ARGN})
+  cmake_parse_arguments(ARG "WHOLE" "LABEL;TIMEOUT" "SOURCES;DEPS" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
   endif()
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_DEPS} plumb_warnings GTest::gtest_main GTest::gmock)
   target_compile_definitions(${name} PRIVATE PLUMB_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
+  if(ARG_WHOLE)
+    add_test(NAME ${name} COMMAND ${name})
+    set_tests_properties(${name} PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
+  else()
+    gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES LABELS ${ARG_LABEL} TIMEOUT ${ARG_TIMEOUT})
+  endif()
 endfunction()

@@ -39,10 +39,15 @@ struct Results {
 
 Expected<Results> AddScans(const runtime::Recording& recording, const LocalizeFlags& flags, runtime::Localizer& localizer, Console& console) {
   Results results;
+  Error last_error{ErrorCode::kBadScan, "no scan"};
   for (size_t i = 0; i < recording.size(); ++i) {
     if (flags.max_duration_s > 0 && recording.stamp_s(i) - recording.stamp_s(0) > flags.max_duration_s) break;
     const auto scan = recording.Read(i);
-    if (!scan) return tl::unexpected(scan.error());
+    if (!scan) {  // one bad file is no reason to lose hours of good ones
+      console.Error(scan.error().message + "; skipped");
+      last_error = scan.error();
+      continue;
+    }
     std::optional<runtime::Odometry::GivenMotion> given;
     if (!flags.no_odometry) given = runtime::GivenMotionDuring(*scan, recording.odometry());
     const runtime::ScanVerdict verdict = localizer.AddScan(*scan, given);
@@ -51,6 +56,7 @@ Expected<Results> AddScans(const runtime::Recording& recording, const LocalizeFl
     for (const runtime::StageTime& stage : verdict.timing) results.timing.push_back({verdict.stamp_s, stage.stage, stage.ms});
     console.Progress("localizing", i + 1, recording.size());
   }
+  if (results.verdicts.empty()) return tl::unexpected(last_error);
   return results;
 }
 
@@ -67,10 +73,11 @@ struct VoxelHash {
 // The keyframes' points in the plan frame, the first of each voxel. Nothing before the first fix: the map then lies nowhere in the plan.
 std::vector<Eigen::Vector3d> AsBuiltCloud(const runtime::Localizer& localizer, double voxel_m) {
   std::vector<Eigen::Vector3d> cloud;
-  if (localizer.SmoothedTrajectory().empty()) return cloud;
+  const std::optional<Eigen::Isometry3d> T_plan_map = localizer.T_plan_map();
+  if (!T_plan_map) return cloud;
   std::unordered_set<Voxel, VoxelHash> taken;
   for (const runtime::Keyframe& keyframe : localizer.map().keyframes) {
-    const Eigen::Isometry3d T_plan_kf = localizer.estimate().T_plan_map * keyframe.T_map_kf;
+    const Eigen::Isometry3d T_plan_kf = *T_plan_map * keyframe.T_map_kf;
     for (const Eigen::Vector3f& point : keyframe.points) {
       const Eigen::Vector3d p = T_plan_kf * point.cast<double>();
       const Eigen::Vector3d cell = (p / voxel_m).array().floor();
@@ -158,6 +165,10 @@ Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
   }
   session.console.Info(fmt::format("{}: localized after {:.1f} s, {} of {} scans; {} walls deviate; {:.0f} ms per scan", flags.output,
                                    *info.time_to_localize_s, info.localized_scans, info.scans, info.deviated_walls, info.ms_per_scan));
+  if (!localizer.T_plan_map()) {
+    session.console.Error(fmt::format("{}: lost at the end of the recording: no deviations, no smoothed trajectory", flags.output));
+    return Status::kFindings;
+  }
   return Status::kFine;
 }
 

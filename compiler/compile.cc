@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <exception>
 
 #include "compiler/emit/emit.h"
@@ -59,8 +60,17 @@ std::string CompileOptions::Check() const {
   return {};
 }
 
+bool CompileResult::has_internal_error() const {
+  const auto& all = diagnostics.all();
+  return std::any_of(all.begin(), all.end(), [](const Diagnostic& d) { return d.kind == DiagnosticKind::kInternalError; });
+}
+
 CompileResult Compile(const std::string& path, const CompileOptions& options) {
   CompileResult out;
+  if (const std::string wrong = options.Check(); !wrong.empty()) {
+    out.diagnostics.Emit(DiagnosticKind::kInternalError, {}, wrong);
+    return out;
+  }
   try {
     out.graph = Run(path, options, out.diagnostics);
   } catch (const std::exception& e) {

@@ -27,9 +27,11 @@ struct CompileOptions {
 struct CompileResult {
   std::optional<AGraph> graph;  // none: the plan was not usable, and an error among the diagnostics says why
   DiagnosticSink diagnostics;
+  // True if the fault is the compiler's or its caller's, not the plan's.
+  [[nodiscard]] bool has_internal_error() const;
 };
 
-// Reads and compiles the plan at `path`. Never throws. Same file and options, same graph.
+// Reads and compiles the plan at `path`. Never throws; invalid options are an InternalError. Same file and options, same graph.
 [[nodiscard]] CompileResult Compile(const std::string& path, const CompileOptions& options = {});
 
 }  // namespace plumb::compiler

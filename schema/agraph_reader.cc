@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <new>
 
 #include "schema/agraph_generated.h"
 #include "schema/files.h"
@@ -11,17 +12,44 @@
 namespace plumb {
 namespace {
 
-std::string Str(const flatbuffers::String* s) { return s == nullptr ? std::string() : s->str(); }
 Eigen::Vector2d Vec(const fb::Vec2* v) { return v == nullptr ? Eigen::Vector2d::Zero() : Eigen::Vector2d(v->x(), v->y()); }
 Eigen::Vector3d Vec(const fb::Vec3* v) { return v == nullptr ? Eigen::Vector3d::Zero() : Eigen::Vector3d(v->x(), v->y(), v->z()); }
 
-Ring ToRing(const fb::Ring* ring) {
-  Ring out;
-  if (ring == nullptr || ring->points() == nullptr) return out;
-  out.reserve(ring->points()->size());
-  for (const fb::Vec2* p : *ring->points()) out.push_back(Vec(p));
-  return out;
-}
+// Copies strings and vectors out of the file. Many tables may share one of them, so that a small file could fill the memory; what is past
+// the budget is left empty.
+class Copier {
+ public:
+  explicit Copier(size_t file_bytes) : budget_bytes_(64 * file_bytes + (1 << 20)) {}
+
+  [[nodiscard]] bool exhausted() const { return exhausted_; }
+
+  std::string Str(const flatbuffers::String* s) { return s != nullptr && Spend(s->size()) ? s->str() : std::string(); }
+
+  Ring ToRing(const fb::Ring* ring) {
+    Ring out;
+    if (ring == nullptr || ring->points() == nullptr || !Spend(size_t{ring->points()->size()} * sizeof(fb::Vec2))) return out;
+    out.reserve(ring->points()->size());
+    for (const fb::Vec2* p : *ring->points()) out.push_back(Vec(p));
+    return out;
+  }
+
+  template <class Out>
+  void Numbers(const flatbuffers::Vector<uint32_t>* numbers, std::vector<Out>& out) {
+    if (numbers == nullptr || !Spend(size_t{numbers->size()} * sizeof(uint32_t))) return;
+    out.reserve(numbers->size());
+    for (uint32_t number : *numbers) out.emplace_back(number);
+  }
+
+ private:
+  bool Spend(size_t bytes) {
+    exhausted_ = exhausted_ || bytes > budget_bytes_;
+    if (!exhausted_) budget_bytes_ -= bytes;
+    return !exhausted_;
+  }
+
+  size_t budget_bytes_;
+  bool exhausted_ = false;
+};
 
 // Turns a vector of tables (absent: empty) into `out` with `convert`.
 template <class Table, class Out, class Function>
@@ -31,10 +59,10 @@ void ReadAll(const flatbuffers::Vector<flatbuffers::Offset<Table>>* items, std::
   for (const Table* item : *items) out.push_back(convert(*item));
 }
 
-void ReadStructure(const fb::AGraph& in, AGraph& out) {
-  ReadAll(in.storeys(), out.storeys, [](const fb::Storey& s) { return Storey{Str(s.guid()), Str(s.name()), s.elevation_m(), s.height_m()}; });
-  ReadAll(in.walls(), out.walls, [](const fb::Wall& w) {
-    return Wall{Str(w.guid()), Str(w.name()),    Str(w.type()), StoreyId(w.storey()), Vec(w.axis_start()), Vec(w.axis_end()),
+void ReadStructure(const fb::AGraph& in, Copier& copy, AGraph& out) {
+  ReadAll(in.storeys(), out.storeys, [&](const fb::Storey& s) { return Storey{copy.Str(s.guid()), copy.Str(s.name()), s.elevation_m(), s.height_m()}; });
+  ReadAll(in.walls(), out.walls, [&](const fb::Wall& w) {
+    return Wall{copy.Str(w.guid()), copy.Str(w.name()),    copy.Str(w.type()), StoreyId(w.storey()), Vec(w.axis_start()), Vec(w.axis_end()),
                 w.thickness_m(), w.z_min_m(), w.z_max_m(), w.external()};
   });
   ReadAll(in.surfaces(), out.surfaces, [](const fb::Surface& s) {
@@ -43,53 +71,51 @@ void ReadStructure(const fb::AGraph& in, AGraph& out) {
     if (const fb::Arc* a = s.arc()) surface.arc = Arc{Vec(a->center()), a->radius_m(), a->start_rad(), a->sweep_rad()};
     return surface;
   });
-  ReadAll(in.rooms(), out.rooms, [](const fb::Room& r) {
+  ReadAll(in.rooms(), out.rooms, [&](const fb::Room& r) {
     Room room;
-    room.guid = Str(r.guid());
-    room.name = Str(r.name());
+    room.guid = copy.Str(r.guid());
+    room.name = copy.Str(r.name());
     room.storey = StoreyId(r.storey());
-    room.polygon = ToRing(r.polygon());
-    ReadAll(r.holes(), room.holes, [](const fb::Ring& ring) { return ToRing(&ring); });
+    room.polygon = copy.ToRing(r.polygon());
+    ReadAll(r.holes(), room.holes, [&](const fb::Ring& ring) { return copy.ToRing(&ring); });
     room.area_m2 = r.area_m2();
     room.center = Vec(r.center());
     room.yaw_rad = r.yaw_rad();
     room.floor_z_m = r.floor_z_m();
     room.ceiling_z_m = r.ceiling_z_m();
-    if (r.surfaces() != nullptr) {
-      for (uint32_t id : *r.surfaces()) room.surfaces.emplace_back(id);
-    }
+    copy.Numbers(r.surfaces(), room.surfaces);
     return room;
   });
 }
 
-void ReadOpenings(const fb::AGraph& in, AGraph& out) {
-  ReadAll(in.doorways(), out.doorways, [](const fb::Doorway& d) {
-    return Doorway{Str(d.guid()),     Str(d.name()),    StoreyId(d.storey()), WallId(d.wall()), RoomId(d.room_a()), RoomId(d.room_b()),
+void ReadOpenings(const fb::AGraph& in, Copier& copy, AGraph& out) {
+  ReadAll(in.doorways(), out.doorways, [&](const fb::Doorway& d) {
+    return Doorway{copy.Str(d.guid()),     copy.Str(d.name()),    StoreyId(d.storey()), WallId(d.wall()), RoomId(d.room_a()), RoomId(d.room_b()),
                    Vec(d.position()), d.yaw_rad(), d.width_m(),          d.height_m(),     d.has_leaf()};
   });
-  ReadAll(in.windows(), out.windows, [](const fb::Window& w) {
-    return Window{Str(w.guid()), Str(w.name()), StoreyId(w.storey()), WallId(w.wall()), Vec(w.position()), w.yaw_rad(), w.width_m(),
+  ReadAll(in.windows(), out.windows, [&](const fb::Window& w) {
+    return Window{copy.Str(w.guid()), copy.Str(w.name()), StoreyId(w.storey()), WallId(w.wall()), Vec(w.position()), w.yaw_rad(), w.width_m(),
                   w.height_m()};
   });
-  ReadAll(in.columns(), out.columns, [](const fb::Column& c) {
-    return Column{Str(c.guid()), Str(c.name()), StoreyId(c.storey()), ToRing(c.outline()), c.z_min_m(), c.z_max_m()};
+  ReadAll(in.columns(), out.columns, [&](const fb::Column& c) {
+    return Column{copy.Str(c.guid()), copy.Str(c.name()), StoreyId(c.storey()), copy.ToRing(c.outline()), c.z_min_m(), c.z_max_m()};
   });
   ReadAll(in.open_boundaries(), out.open_boundaries, [](const fb::OpenBoundary& b) {
     return OpenBoundary{StoreyId(b.storey()), RoomId(b.room_a()), RoomId(b.room_b()), Vec(b.start()), Vec(b.end())};
   });
 }
 
-void ReadRest(const fb::AGraph& in, AGraph& out) {
-  ReadAll(in.factors(), out.factors, [](const fb::Factor& f) {
+void ReadRest(const fb::AGraph& in, Copier& copy, AGraph& out) {
+  ReadAll(in.factors(), out.factors, [&](const fb::Factor& f) {
     Factor factor;
     factor.kind = static_cast<FactorKind>(f.kind());
-    if (f.variables() != nullptr) factor.variables.assign(f.variables()->begin(), f.variables()->end());
+    copy.Numbers(f.variables(), factor.variables);
     return factor;
   });
-  ReadAll(in.elements(), out.elements, [](const fb::Element& e) {
-    return Element{Str(e.guid()),
-                   Str(e.name()),
-                   Str(e.type()),
+  ReadAll(in.elements(), out.elements, [&](const fb::Element& e) {
+    return Element{copy.Str(e.guid()),
+                   copy.Str(e.name()),
+                   copy.Str(e.type()),
                    static_cast<ElementKind>(e.kind()),
                    static_cast<Material>(e.material()),
                    StoreyId(e.storey()),
@@ -109,10 +135,10 @@ void ReadRest(const fb::AGraph& in, AGraph& out) {
   ReadAll(in.aliases(), out.aliases, [](const fb::Alias& a) {
     return Alias{a.yaw_rad(), Vec(a.translation()), a.overlap_ratio(), StoreyId(a.from_storey()), StoreyId(a.to_storey())};
   });
-  ReadAll(in.diagnostics(), out.diagnostics, [](const fb::DiagnosticCount& d) {
-    return DiagnosticCount{Str(d.code()), static_cast<Severity>(d.severity()), d.count()};
+  ReadAll(in.diagnostics(), out.diagnostics, [&](const fb::DiagnosticCount& d) {
+    return DiagnosticCount{copy.Str(d.code()), static_cast<Severity>(d.severity()), d.count()};
   });
-  ReadAll(in.options(), out.options, [](const fb::Option& o) { return Option{Str(o.name()), Str(o.value())}; });
+  ReadAll(in.options(), out.options, [&](const fb::Option& o) { return Option{copy.Str(o.name()), copy.Str(o.value())}; });
 }
 
 // Checks what the verifier cannot know: that ids point somewhere and numbers are numbers. Collects the first fault.
@@ -262,6 +288,26 @@ class Checker {
   std::string fault_;
 };
 
+Error Damaged(const char* how) { return {ErrorCode::kAGraphDamaged, std::string("the A-Graph is damaged: ") + how}; }
+
+Expected<AGraph> Convert(const fb::AGraph& in, size_t file_bytes) {
+  Copier copy(file_bytes);
+  AGraph out;
+  out.tool_version = copy.Str(in.tool_version());
+  out.source_path = copy.Str(in.source_path());
+  out.source_format = copy.Str(in.source_format());
+  out.source_sha256 = copy.Str(in.source_sha256());
+  out.origin = Vec(in.origin());
+  ReadStructure(in, copy, out);
+  ReadOpenings(in, copy, out);
+  ReadRest(in, copy, out);
+  if (copy.exhausted()) return tl::unexpected<Error>(Damaged("its tables share so much that it unfolds to many times its size"));
+  if (std::string fault = Checker(out).Run(); !fault.empty()) {
+    return Fail(ErrorCode::kAGraphInconsistent, "the A-Graph contradicts itself: " + fault);
+  }
+  return out;
+}
+
 }  // namespace
 
 Expected<AGraph> ReadAGraph(std::span<const uint8_t> bytes) {
@@ -270,26 +316,18 @@ Expected<AGraph> ReadAGraph(std::span<const uint8_t> bytes) {
   }
   // Limits bound the verifier's work; the table limit grows with the file since a table takes at least 8 bytes.
   flatbuffers::Verifier verifier(bytes.data(), bytes.size(), 64, static_cast<flatbuffers::uoffset_t>(bytes.size() / 8 + 1));
-  if (!fb::VerifyAGraphBuffer(verifier)) return Fail(ErrorCode::kAGraphDamaged, "the A-Graph is damaged: an offset points outside the file");
+  if (!fb::VerifyAGraphBuffer(verifier)) return tl::unexpected<Error>(Damaged("an offset points outside the file"));
   const fb::AGraph& in = *fb::GetAGraph(bytes.data());
   if (in.schema_major() > kSchemaMajor) {
     return Fail(ErrorCode::kAGraphTooNew, fmt::format("the A-Graph has schema {}.{}; this version reads up to {}.x", in.schema_major(),
                                                       in.schema_minor(), kSchemaMajor));
   }
-  if (in.schema_major() == 0) return Fail(ErrorCode::kAGraphDamaged, "the A-Graph is damaged: it has no schema version");
-  AGraph out;
-  out.tool_version = Str(in.tool_version());
-  out.source_path = Str(in.source_path());
-  out.source_format = Str(in.source_format());
-  out.source_sha256 = Str(in.source_sha256());
-  out.origin = Vec(in.origin());
-  ReadStructure(in, out);
-  ReadOpenings(in, out);
-  ReadRest(in, out);
-  if (std::string fault = Checker(out).Run(); !fault.empty()) {
-    return Fail(ErrorCode::kAGraphInconsistent, "the A-Graph contradicts itself: " + fault);
+  if (in.schema_major() == 0) return tl::unexpected<Error>(Damaged("it has no schema version"));
+  try {
+    return Convert(in, bytes.size());
+  } catch (const std::bad_alloc&) {
+    return tl::unexpected<Error>(Damaged("it does not fit into the memory"));
   }
-  return out;
 }
 
 Expected<AGraph> ReadAGraphFile(const std::string& path) {

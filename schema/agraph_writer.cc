@@ -32,14 +32,20 @@ auto PackAll(Builder& b, const Items& items, Function pack) {
 auto Str(Builder& b, const std::string& s) { return b.CreateSharedString(s); }
 
 auto PackStoreys(Builder& b, const AGraph& g) {
-  return PackAll(b, g.storeys, [&](const Storey& s) { return fb::CreateStorey(b, Str(b, s.guid), Str(b, s.name), s.elevation_m, s.height_m); });
+  return PackAll(b, g.storeys, [&](const Storey& s) {
+    const auto guid = Str(b, s.guid);
+    const auto name = Str(b, s.name);
+    return fb::CreateStorey(b, guid, name, s.elevation_m, s.height_m);
+  });
 }
 
 auto PackWalls(Builder& b, const AGraph& g) {
   return PackAll(b, g.walls, [&](const Wall& w) {
     const fb::Vec2 start = Pack(w.axis_start), end = Pack(w.axis_end);
-    return fb::CreateWall(b, Str(b, w.guid), Str(b, w.name), Str(b, w.type), w.storey.value, &start, &end, w.thickness_m, w.z_min_m,
-                          w.z_max_m, w.external);
+    const auto guid = Str(b, w.guid);
+    const auto name = Str(b, w.name);
+    const auto type = Str(b, w.type);
+    return fb::CreateWall(b, guid, name, type, w.storey.value, &start, &end, w.thickness_m, w.z_min_m, w.z_max_m, w.external);
   });
 }
 
@@ -73,7 +79,9 @@ auto PackRooms(Builder& b, const AGraph& g) {
 auto PackDoorways(Builder& b, const AGraph& g) {
   return PackAll(b, g.doorways, [&](const Doorway& d) {
     const fb::Vec3 position = Pack(d.position);
-    return fb::CreateDoorway(b, Str(b, d.guid), Str(b, d.name), d.storey.value, d.wall.value, d.room_a.value, d.room_b.value, &position,
+    const auto guid = Str(b, d.guid);
+    const auto name = Str(b, d.name);
+    return fb::CreateDoorway(b, guid, name, d.storey.value, d.wall.value, d.room_a.value, d.room_b.value, &position,
                              d.yaw_rad, d.width_m, d.height_m, d.has_leaf);
   });
 }
@@ -81,14 +89,18 @@ auto PackDoorways(Builder& b, const AGraph& g) {
 auto PackWindows(Builder& b, const AGraph& g) {
   return PackAll(b, g.windows, [&](const Window& w) {
     const fb::Vec3 position = Pack(w.position);
-    return fb::CreateWindow(b, Str(b, w.guid), Str(b, w.name), w.storey.value, w.wall.value, &position, w.yaw_rad, w.width_m, w.height_m);
+    const auto guid = Str(b, w.guid);
+    const auto name = Str(b, w.name);
+    return fb::CreateWindow(b, guid, name, w.storey.value, w.wall.value, &position, w.yaw_rad, w.width_m, w.height_m);
   });
 }
 
 auto PackColumns(Builder& b, const AGraph& g) {
   return PackAll(b, g.columns, [&](const Column& c) {
     const auto outline = Pack(b, c.outline);
-    return fb::CreateColumn(b, Str(b, c.guid), Str(b, c.name), c.storey.value, outline, c.z_min_m, c.z_max_m);
+    const auto guid = Str(b, c.guid);
+    const auto name = Str(b, c.name);
+    return fb::CreateColumn(b, guid, name, c.storey.value, outline, c.z_min_m, c.z_max_m);
   });
 }
 
@@ -101,13 +113,17 @@ auto PackOpenBoundaries(Builder& b, const AGraph& g) {
 
 auto PackFactors(Builder& b, const AGraph& g) {
   return PackAll(b, g.factors, [&](const Factor& f) {
-    return fb::CreateFactor(b, static_cast<fb::FactorKind>(f.kind), b.CreateVector(f.variables));
+    const auto variables = b.CreateVector(f.variables);
+    return fb::CreateFactor(b, static_cast<fb::FactorKind>(f.kind), variables);
   });
 }
 
 auto PackElements(Builder& b, const AGraph& g) {
   return PackAll(b, g.elements, [&](const Element& e) {
-    return fb::CreateElement(b, Str(b, e.guid), Str(b, e.name), Str(b, e.type), static_cast<fb::ElementKind>(e.kind),
+    const auto guid = Str(b, e.guid);
+    const auto name = Str(b, e.name);
+    const auto type = Str(b, e.type);
+    return fb::CreateElement(b, guid, name, type, static_cast<fb::ElementKind>(e.kind),
                              static_cast<fb::Material>(e.material), e.storey.value, e.wall.value, e.doorway.value);
   });
 }
@@ -133,12 +149,17 @@ auto PackAliases(Builder& b, const AGraph& g) {
 
 auto PackDiagnostics(Builder& b, const AGraph& g) {
   return PackAll(b, g.diagnostics, [&](const DiagnosticCount& d) {
-    return fb::CreateDiagnosticCount(b, Str(b, d.code), static_cast<fb::Severity>(d.severity), d.count);
+    const auto code = Str(b, d.code);
+    return fb::CreateDiagnosticCount(b, code, static_cast<fb::Severity>(d.severity), d.count);
   });
 }
 
 auto PackOptions(Builder& b, const AGraph& g) {
-  return PackAll(b, g.options, [&](const Option& o) { return fb::CreateOption(b, Str(b, o.name), Str(b, o.value)); });
+  return PackAll(b, g.options, [&](const Option& o) {
+    const auto name = Str(b, o.name);
+    const auto value = Str(b, o.value);
+    return fb::CreateOption(b, name, value);
+  });
 }
 
 }  // namespace

@@ -177,10 +177,12 @@ Solid SweepDisk(const std::vector<Vector3d>& path, double radius_m, int sides) {
 
 int ArcSegments(double radius_m, double sweep_rad, double chord_tolerance_m, int min_per_turn) {
   constexpr int kMaxPerTurn = 256;
+  if (!std::isfinite(radius_m) || !std::isfinite(sweep_rad)) return 1;
+  const double turns = std::min(std::abs(sweep_rad) / (2 * std::numbers::pi), 1.0);
   const double ratio = std::clamp(1 - chord_tolerance_m / std::max(radius_m, 1e-9), -1.0, 1.0);
   const double step_rad = 2 * std::acos(ratio);
   const double per_turn = std::clamp(2 * std::numbers::pi / std::max(step_rad, 1e-6), double(min_per_turn), double(kMaxPerTurn));
-  return std::max(1, static_cast<int>(std::ceil(std::abs(sweep_rad) / (2 * std::numbers::pi) * per_turn - 1e-9)));
+  return std::max(1, static_cast<int>(std::ceil(turns * per_turn - 1e-9)));
 }
 
 }  // namespace plumb::compiler

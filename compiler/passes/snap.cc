@@ -77,7 +77,7 @@ bool SplitAtVertices(SnapGraph& graph, double radius_m) {
       if (v == s.from || v == s.to) continue;
       const Eigen::Vector2d w = graph.vertices[v] - a;
       const double t = w.dot(along) / (length * length), distance = std::abs(Cross(along, w)) / length;
-      if (distance > radius_m || t <= 0 || t >= 1) continue;
+      if (!(distance <= radius_m && t > 0 && t < 1)) continue;
       splits.push_back({i, t, v});
       if (distance < nearest[v].distance_m) nearest[v] = {distance, a + t * along};
     }
@@ -113,7 +113,7 @@ bool SplitAtCrossings(SnapGraph& graph) {
       const double det = Cross(u, v);
       if (det == 0) continue;
       const double t = Cross(w, v) / det, q = Cross(w, u) / det;
-      if (t <= 0 || t >= 1 || q <= 0 || q >= 1) continue;
+      if (!(t > 0 && t < 1 && q > 0 && q < 1)) continue;  // also where one is not a number
       const Eigen::Vector2d p = a + t * u;
       const auto [it, fresh] = crossing_vertices.emplace(std::make_pair(p.x(), p.y()), static_cast<uint32_t>(graph.vertices.size()));
       if (fresh) graph.vertices.push_back(p);

@@ -19,12 +19,14 @@
 namespace plumb::compiler {
 namespace {
 
-constexpr char kFolder[] = "/usr/share/assimp/models/IFC/AC14-FZK-Haus.ifc";
 constexpr char kGolden[] = PLUMB_SOURCE_DIR "/tests/compile/golden/AC14-FZK-Haus.json";
 
 std::string HousePath() {
-  for (const char* suffix : {"", ".gz"}) {
-    if (std::filesystem::exists(std::string(kFolder) + suffix)) return std::string(kFolder) + suffix;
+  for (const char* folder : {"models", "models-nonbsd"}) {
+    for (const char* suffix : {"", ".gz"}) {
+      const std::string path = std::string("/usr/share/assimp/") + folder + "/IFC/AC14-FZK-Haus.ifc" + suffix;
+      if (std::filesystem::exists(path)) return path;
+    }
   }
   return {};
 }

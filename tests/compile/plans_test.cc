@@ -35,6 +35,9 @@ fs::path DrawingIn(const fs::path& folder) {
   return {};
 }
 
+// Without it an empty folder would pass all tests.
+TEST(PlanFolders, AreNotEmpty) { EXPECT_FALSE(PlanFolders().empty()); }
+
 class Plans : public ::testing::TestWithParam<std::string> {
  protected:
   void SetUp() override {

@@ -3,7 +3,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <iterator>
 #include <memory>
+#include <vector>
 
 #include "compiler/diagnostics/diagnostic.h"
 #include "schema/agraph_writer.h"
@@ -24,16 +27,30 @@ std::string Summary(const AGraph& g, const std::string& output) {
                      g.surfaces.size(), g.rooms.size(), g.doorways.size(), g.windows.size(), g.mesh.triangles.size());
 }
 
+// With --quiet the errors alone remain.
+void Tell(const CompileFlags& flags, const std::vector<compiler::Diagnostic>& diagnostics, Console& console) {
+  if (!console.quiet()) {
+    const std::string text = compiler::DiagnosticsToText(diagnostics, flags.plan, flags.max_per_kind);
+    if (!text.empty()) console.Info(text.substr(0, text.size() - 1));
+    return;
+  }
+  std::vector<compiler::Diagnostic> errors;
+  std::copy_if(diagnostics.begin(), diagnostics.end(), std::back_inserter(errors),
+               [](const compiler::Diagnostic& d) { return compiler::SeverityOf(d.kind) == Severity::kError; });
+  const std::string text = compiler::DiagnosticsToText(errors, flags.plan, flags.max_per_kind);
+  if (!text.empty()) console.Error(text.substr(0, text.size() - 1));
+}
+
 Status RunCompile(const CompileFlags& flags, Session& session) {
   if (const std::string wrong = flags.options.Check(); !wrong.empty()) return session.Fail({ErrorCode::kBadOption, wrong});
   const compiler::CompileResult result = compiler::Compile(flags.plan, flags.options);
   const auto& diagnostics = result.diagnostics.all();
-  const std::string text = compiler::DiagnosticsToText(diagnostics, flags.plan, flags.max_per_kind);
-  if (!text.empty()) session.console.Info(text.substr(0, text.size() - 1));
+  Tell(flags, diagnostics, session.console);
   if (!flags.diagnostics_json.empty()) {
     const auto written = WriteFileAtomically(flags.diagnostics_json, std::string_view(compiler::DiagnosticsToJson(diagnostics, flags.plan)));
     if (!written) return session.Fail(written.error());
   }
+  if (result.has_internal_error()) return session.Fail({ErrorCode::kInternal, fmt::format("the compiler failed on `{}`; see above", flags.plan)});
   if (!result.graph) return session.Fail({ErrorCode::kPlanUnsuitable, fmt::format("`{}` gives no A-Graph; see above", flags.plan)});
   if (const auto written = WriteAGraphFile(*result.graph, flags.output); !written) return session.Fail(written.error());
   session.console.Info(Summary(*result.graph, flags.output));

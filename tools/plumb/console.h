@@ -9,6 +9,7 @@ namespace plumb::tools {
 class Console {
  public:
   void set_quiet(bool quiet) { quiet_ = quiet; }
+  [[nodiscard]] bool quiet() const { return quiet_; }
 
   // One line to stderr; not with --quiet.
   void Info(const std::string& line);

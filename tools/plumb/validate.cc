@@ -47,6 +47,7 @@ Status ValidateAGraph(const ValidateFlags& flags, const AGraph& graph, Session& 
 Status ValidatePlan(const ValidateFlags& flags, Session& session) {
   const compiler::CompileResult result = compiler::Compile(flags.path);
   const Status status = Judge(flags, result.diagnostics.all(), session);
+  if (result.has_internal_error()) return session.Fail({ErrorCode::kInternal, fmt::format("the compiler failed on `{}`", flags.path)});
   if (!result.graph) return session.Fail({ErrorCode::kPlanUnsuitable, fmt::format("`{}` gives no A-Graph", flags.path)});
   return status;
 }

@@ -17,6 +17,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr int kMaxDepth = 32;
+constexpr size_t kMaxVisits = 20000;  // of the parts of one curve, which a small file can share so that they unfold exponentially
 constexpr double kSamePoint_m = 1e-6;
 constexpr double kTwoPi = 2 * std::numbers::pi;
 
@@ -104,13 +105,22 @@ Eigen::Vector4d EvaluateSpline(const std::vector<Eigen::Vector4d>& points, const
 std::vector<Vector3d> CurveReader::PointList(const IfcInstance& list) const {
   std::vector<Vector3d> points;
   if (!list) return points;
+  size_t bad = 0;
   for (const StepValue item : list[attribute::kPointListCoordinates].Items()) {
     Vector3d p = Vector3d::Zero();
     int n = 0;
     for (const StepValue number : item.Items()) {
       if (n < 3) p[n++] = number.Real().value_or(0);
     }
-    points.push_back(p.allFinite() ? Vector3d(p * model_.length_scale()) : Vector3d::Zero());
+    p *= model_.length_scale();
+    const bool good = IsCoordinate(p);
+    points.push_back(good ? p : Vector3d::Zero());
+    bad += good ? 0 : 1;
+  }
+  if (bad > 0) {
+    model_.Emit(DiagnosticKind::kBadAttribute, list.index,
+                fmt::format("{} points of {} lie over {} m from the origin or are no numbers; they are taken as the origin", bad,
+                            model_.Label(list.index), kMaxCoordinate_m));
   }
   return points;
 }
@@ -121,6 +131,14 @@ CurvePoints CurveReader::Read(const IfcInstance& curve, int depth) const {
   if (depth > kMaxDepth) {
     model_.Emit(DiagnosticKind::kReferenceCycle, curve.index,
                 fmt::format("the curve {} contains itself or is nested more than {} deep", model_.Label(curve.index), kMaxDepth));
+    return out;
+  }
+  if (depth == 0) visits_ = 0;
+  if (++visits_ > kMaxVisits) {
+    if (visits_ == kMaxVisits + 1) {
+      model_.Emit(DiagnosticKind::kReferenceCycle, curve.index,
+                  fmt::format("a curve unfolds into more than {} parts, {} among them; the rest is left out", kMaxVisits, model_.Label(curve.index)));
+    }
     return out;
   }
   switch (curve.type) {

@@ -47,6 +47,7 @@ class CurveReader {
   const IfcModel& model_;
   const PlacementReader& placements_;
   double chord_tolerance_m_;
+  mutable size_t visits_ = 0;  // of the parts of the curve that is read
 };
 
 }  // namespace plumb::compiler

@@ -94,7 +94,11 @@ double IfcModel::Number(const IfcInstance& instance, size_t attribute_index, dou
 }
 
 double IfcModel::Length(const IfcInstance& instance, size_t attribute_index, double fallback) const {
-  return Number(instance, attribute_index, fallback / length_scale_) * length_scale_;
+  const double length_m = Number(instance, attribute_index, fallback / length_scale_) * length_scale_;
+  if (std::abs(length_m) <= kMaxCoordinate_m) return length_m;
+  Emit(DiagnosticKind::kBadAttribute, instance.index,
+       fmt::format("attribute {} of {} is over {} m; it is taken as {} m", attribute_index + 1, Label(instance.index), kMaxCoordinate_m, fallback));
+  return fallback;
 }
 
 SourceLocation IfcModel::Location(uint32_t index) const {

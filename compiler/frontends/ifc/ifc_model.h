@@ -1,6 +1,7 @@
 // An IFC file as instances with types, over the STEP index: what all parts of the frontend look things up in.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <optional>
 #include <set>
@@ -30,6 +31,10 @@ struct IfcInstance {
   explicit operator bool() const { return index != StepFile::kNone; }
   StepValue operator[](size_t attribute_index) const { return arguments[attribute_index]; }
 };
+
+// More than twice the Earth's circumference: beyond it a coordinate is a mistake, and products of coordinates would lose their meaning.
+inline constexpr double kMaxCoordinate_m = 1e8;
+[[nodiscard]] inline bool IsCoordinate(const Eigen::Vector3d& p_m) { return p_m.allFinite() && p_m.cwiseAbs().maxCoeff() <= kMaxCoordinate_m; }
 
 class IfcModel {
  public:

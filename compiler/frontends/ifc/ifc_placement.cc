@@ -46,9 +46,12 @@ bool ReadTriple(StepValue list, Vector3d& out) {
 Vector3d PlacementReader::Point(const IfcInstance& point) const {
   if (!point) return Vector3d::Zero();
   Vector3d p;
-  if (point.type == IfcType::kIfcCartesianPoint && ReadTriple(point[attribute::kCoordinates], p)) return p * model_.length_scale();
+  if (point.type == IfcType::kIfcCartesianPoint && ReadTriple(point[attribute::kCoordinates], p)) {
+    p *= model_.length_scale();
+    if (IsCoordinate(p)) return p;
+  }
   model_.Emit(DiagnosticKind::kBadAttribute, point.index,
-              fmt::format("{} gives no coordinates; it is taken as the origin", model_.Label(point.index)));
+              fmt::format("{} gives no coordinates within {} m; it is taken as the origin", model_.Label(point.index), kMaxCoordinate_m));
   return Vector3d::Zero();
 }
 

@@ -20,6 +20,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr int kMaxDepth = 300;
+constexpr size_t kMaxVisits = 200000;  // of items in one body: a small file can share its items so that they unfold exponentially
 constexpr int kDiskSides = 8;
 
 size_t CountTriangles(const ShapeParts& parts) {
@@ -68,6 +69,7 @@ ShapeReader::ShapeReader(const IfcModel& model, const PlacementReader& placement
 
 ShapeParts ShapeReader::Body(const IfcInstance& definition_shape) {
   if (!definition_shape || definition_shape.type != IfcType::kIfcProductDefinitionShape) return {};
+  visits_ = 0;
   std::vector<std::pair<int, IfcInstance>> ranked;
   for (const StepValue item : definition_shape[attribute::kShapeRepresentations].Items()) {
     const IfcInstance representation = model_.Follow(item);
@@ -105,6 +107,13 @@ std::optional<std::pair<Vector3d, Vector3d>> ShapeReader::Axis(const IfcInstance
   return std::nullopt;
 }
 
+bool ShapeReader::TooLarge(const ShapeParts& parts, uint32_t whole) const {
+  if (CountTriangles(parts) <= options_.max_triangles_per_element) return false;
+  model_.Emit(DiagnosticKind::kTooManyTriangles, whole,
+              fmt::format("{} has over {} triangles; the rest is left out", model_.Label(whole), options_.max_triangles_per_element));
+  return true;
+}
+
 ShapeParts ShapeReader::Representation(const IfcInstance& representation, int depth) {
   ShapeParts parts;
   for (const StepValue reference : representation[attribute::kRepresentationItems].Items()) {
@@ -112,12 +121,7 @@ ShapeParts ShapeReader::Representation(const IfcInstance& representation, int de
     if (!item) continue;
     ShapeParts more = Item(item, depth);
     parts.insert(parts.end(), std::make_move_iterator(more.begin()), std::make_move_iterator(more.end()));
-    if (CountTriangles(parts) > options_.max_triangles_per_element) {
-      model_.Emit(DiagnosticKind::kTooManyTriangles, representation.index,
-                  fmt::format("{} has over {} triangles; the rest is left out", model_.Label(representation.index),
-                              options_.max_triangles_per_element));
-      break;
-    }
+    if (TooLarge(parts, representation.index)) break;
   }
   return parts;
 }
@@ -126,6 +130,13 @@ ShapeParts ShapeReader::Item(const IfcInstance& item, int depth) {
   if (depth > kMaxDepth) {
     model_.Emit(DiagnosticKind::kReferenceCycle, item.index,
                 fmt::format("the shape {} contains itself or is nested more than {} deep", model_.Label(item.index), kMaxDepth));
+    return {};
+  }
+  if (++visits_ > kMaxVisits) {
+    if (visits_ == kMaxVisits + 1) {
+      model_.Emit(DiagnosticKind::kReferenceCycle, item.index,
+                  fmt::format("a shape unfolds into more than {} items, {} among them; the rest is left out", kMaxVisits, model_.Label(item.index)));
+    }
     return {};
   }
   ShapeParts parts = ReadItem(item, depth);
@@ -180,16 +191,22 @@ ShapeParts ShapeReader::ReadItem(const IfcInstance& item, int depth) {
 ShapeParts ShapeReader::Mapped(const IfcInstance& item, int depth) {
   const IfcInstance map = model_.Follow(item[attribute::kMappingSource]);
   if (!map || map.type != IfcType::kIfcRepresentationMap) return {};
-  auto known = mapped_.find(map.index);
-  if (known == mapped_.end()) {
+  // Entered before it is read, so that a map within itself is met here, not at the end of an exponential descent.
+  const auto [known, fresh] = mapped_.try_emplace(map.index);
+  std::optional<ShapeParts>& known_parts = known->second;  // stays where it is when the table grows
+  if (!fresh && !known_parts) {
+    model_.Emit(DiagnosticKind::kReferenceCycle, item.index, fmt::format("the shape {} contains itself", model_.Label(map.index)));
+    return {};
+  }
+  if (fresh) {
     const IfcInstance representation = model_.Follow(map[attribute::kMappedRepresentation]);
     ShapeParts parts;
     if (representation) parts = Representation(representation, depth + 1);
     const Affine3d T_map_origin(placements_.AxisPlacement(map[attribute::kMapOrigin]).matrix());
     for (ShapePart& part : parts) TransformPart(T_map_origin, part);
-    known = mapped_.insert_or_assign(map.index, std::move(parts)).first;
+    known_parts = std::move(parts);
   }
-  ShapeParts parts = known->second;
+  ShapeParts parts = *known_parts;
   const Affine3d T = placements_.Operator(item[attribute::kMappingTarget]);
   for (ShapePart& part : parts) TransformPart(T, part);
   return parts;
@@ -225,7 +242,8 @@ ShapeParts ShapeReader::Revolved(const IfcInstance& item) {
   if (profile.area.empty() || !axis) return {};
   const Vector3d point = placements_.Point(axis[attribute::kLocation]);
   const Vector3d direction = placements_.Direction(axis[attribute::kAxis], Vector3d::UnitY());
-  const double angle_rad = model_.Number(item, attribute::kRevolutionAngle) * model_.angle_scale();
+  const double angle_rad =
+      std::clamp(model_.Number(item, attribute::kRevolutionAngle) * model_.angle_scale(), -2 * std::numbers::pi, 2 * std::numbers::pi);
   double reach_m = 0;
   for (const Ring2& ring : profile.area) {
     for (const Vector2d& p : ring) reach_m = std::max(reach_m, (p - point.head<2>()).norm());
@@ -303,6 +321,7 @@ ShapeParts ShapeReader::Boolean(const IfcInstance& item, int depth) {
     }
     return parts;
   }
+  if (TooLarge(parts, item.index)) return parts;
   ShapeParts tools = Item(second, depth + 1);
   if (op == "UNION") {
     parts.insert(parts.end(), std::make_move_iterator(tools.begin()), std::make_move_iterator(tools.end()));

@@ -38,6 +38,8 @@ class ShapeReader {
   [[nodiscard]] std::optional<std::pair<Eigen::Vector3d, Eigen::Vector3d>> Axis(const IfcInstance& definition_shape) const;
 
  private:
+  // With a diagnostic about `whole`.
+  [[nodiscard]] bool TooLarge(const ShapeParts& parts, uint32_t whole) const;
   [[nodiscard]] ShapeParts Representation(const IfcInstance& representation, int depth);
   [[nodiscard]] ShapeParts Item(const IfcInstance& item, int depth);
   [[nodiscard]] ShapeParts ReadItem(const IfcInstance& item, int depth);
@@ -60,7 +62,8 @@ class ShapeReader {
   CurveReader curves_;
   ProfileReader profiles_;
   FaceReader faces_;
-  std::unordered_map<uint32_t, ShapeParts> mapped_;  // by IfcRepresentationMap, in its own frame
+  std::unordered_map<uint32_t, std::optional<ShapeParts>> mapped_;  // by IfcRepresentationMap, in its own frame; none while it is read
+  size_t visits_ = 0;                                               // of items in the body that is read
 };
 
 }  // namespace plumb::compiler

@@ -156,12 +156,9 @@ class StepIndexer {
   // Behind the `;` that ends the statement from `start`, looked for from `p` on and past strings and comments. Stops early, with a
   // complaint, where the next instance begins without a `;` before it.
   const char* Terminator(const char* start, const char* p) {
-    const char* semicolon = nullptr;
     while (true) {
-      if (semicolon == nullptr || semicolon < p) semicolon = Find(p, end_, ';');
-      const char* stop = semicolon != nullptr ? semicolon : end_;
-      const char* quote = Find(p, stop, '\'');
-      const char* limit = quote != nullptr ? quote : stop;
+      const char* stop = Next(p, ';', semicolon_);
+      const char* limit = std::min(Next(p, '\'', quote_), stop);
       if (const char* comment = FindComment(p, limit)) {
         p = SkipStepSpace(comment, end_);
         continue;
@@ -170,21 +167,30 @@ class StepIndexer {
         Complain(start, "a statement does not end with `;` before the next instance");
         return next;
       }
-      if (quote == nullptr) {
-        if (semicolon != nullptr) return semicolon + 1;
+      if (limit == stop) {
+        if (stop != end_) return stop + 1;
         truncated_ = true;
         Complain(start, "the file ends inside this statement: it was cut off");
         return end_;
       }
-      const char* close = Find(quote + 1, end_, '\'');
-      const char* inside = InstanceInString(quote + 1, close != nullptr ? close : end_);
-      if (inside != nullptr || close == nullptr) {
-        Complain(quote, "a string has no closing quote");
+      const char* close = Next(limit + 1, '\'', quote_);
+      const char* inside = InstanceInString(limit + 1, close);
+      if (inside != nullptr || close == end_) {
+        Complain(limit, "a string has no closing quote");
         if (inside == nullptr) truncated_ = true;
         return inside != nullptr ? inside : end_;
       }
       p = close + 1;
     }
+  }
+
+  // The next `c` at or behind p, or the end. `found` keeps it: p only moves on, so no byte is searched twice.
+  const char* Next(const char* p, char c, const char*& found) const {
+    if (found == nullptr || found < p) {
+      found = Find(p, end_, c);
+      if (found == nullptr) found = end_;
+    }
+    return found;
   }
 
   static const char* FindComment(const char* p, const char* limit) {
@@ -232,6 +238,8 @@ class StepIndexer {
 
   const char* begin_;
   const char* end_;
+  const char* semicolon_ = nullptr;  // the next ones, as far as they were looked for
+  const char* quote_ = nullptr;
   DiagnosticSink& diagnostics_;
   StepFile file_;
   TypeTable types_;

@@ -46,6 +46,17 @@ TEST(AGraphIo, RefusesOtherFiles) {
   EXPECT_EQ(ReadAGraphFile("/nonexistent.agraph").error().code, ErrorCode::kFileNotFound);
 }
 
+// A thousand options that share one string of a megabyte: a gigabyte from a megabyte.
+TEST(AGraphIo, RefusesAFileThatUnfoldsToManyTimesItsSize) {
+  AGraph house = test::MakeHouse();
+  house.options.assign(1000, Option{"name", std::string(1 << 20, 'x')});
+  const std::vector<uint8_t> bytes = WriteAGraph(house);
+  EXPECT_LT(bytes.size(), size_t{2} << 20);
+  EXPECT_EQ(ReadAGraph(bytes).error().code, ErrorCode::kAGraphDamaged);
+  house.options.assign(50, Option{"name", std::string(1 << 20, 'x')});
+  EXPECT_TRUE(ReadAGraph(WriteAGraph(house)));
+}
+
 TEST(AGraphIo, RefusesReferencesToNothing) {
   AGraph house = test::MakeHouse();
   house.surfaces[3].wall = WallId(99);

@@ -179,6 +179,37 @@ TEST_F(ShapeReaderTest, CyclesAndUnknownShapesAreDiagnosticsAndBoxesStandIn) {
   EXPECT_EQ(all.back().kind, DiagnosticKind::kBoundingBoxInstead);
 }
 
+// Two children each that lead back: without a bound 2^300 items.
+TEST_F(ShapeReaderTest, CyclesWithTwoChildrenEndSoon) {
+  EXPECT_TRUE(ReadItem("#20=IFCMAPPEDITEM(#22,$);\n#21=IFCMAPPEDITEM(#22,$);\n#22=IFCREPRESENTATIONMAP($,#23);\n"
+                       "#23=IFCSHAPEREPRESENTATION($,'Body','MappedRepresentation',(#20,#21));",
+                       "#20", "MappedRepresentation")
+                  .empty());
+  EXPECT_EQ(diagnostics_.all().back().kind, DiagnosticKind::kReferenceCycle);
+
+  // A chain of unions whose operands are the same: 2^40 blocks of no size, then of some.
+  options_.max_triangles_per_element = 5000;
+  for (const char* size : {"0.", "1."}) {
+    std::string data = "#100=IFCBLOCK($," + std::string(size) + ",1.,1.);\n";
+    for (int i = 101; i <= 140; ++i) {
+      const std::string below = "#" + std::to_string(i - 1);
+      data += "#" + std::to_string(i) + "=IFCBOOLEANRESULT(.UNION.," + below + "," + below + ");\n";
+    }
+    EXPECT_LT(ReadItem(data, "#140", "CSG").size(), 2000u);
+  }
+  EXPECT_EQ(diagnostics_.all().back().kind, DiagnosticKind::kTooManyTriangles);
+}
+
+TEST_F(ShapeReaderTest, FarCoordinatesAndHugeAnglesAreBounded) {
+  Open("#10=IFCCARTESIANPOINT((1.E300,0.,0.));\n#11=IFCCARTESIANPOINT((1.E7,0.,0.));\n#12=IFCBLOCK($,1.E300,1.,1.);");
+  EXPECT_EQ(placements_->Point(Get(10)), Eigen::Vector3d::Zero());
+  EXPECT_EQ(diagnostics_.all().back().kind, DiagnosticKind::kBadAttribute);
+  EXPECT_GT(placements_->Point(Get(11)).x(), 1000);
+  EXPECT_EQ(model_->Length(Get(12), attribute::kBlockX), 0);
+  EXPECT_EQ(ArcSegments(1, 1e300, 0.001), ArcSegments(1, 2 * kPi, 0.001));
+  EXPECT_EQ(ArcSegments(1, std::nan(""), 0.001), 1);
+}
+
 TEST_F(ShapeReaderTest, OperatorsThatDoubleAtEachLevelAreCutOff) {
   options_.max_triangles_per_element = 5000;
   std::string data = kBox;

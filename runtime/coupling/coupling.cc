@@ -19,7 +19,10 @@ constexpr double kMinSizeShare = 0.5;      // a line behind another is the wall 
 constexpr double kHigher_m = 0.10;         // ... or is seen this much higher up
 constexpr double kFrontPenalty_nats = 8;   // for taking a surface with a wall visible behind it for the wall
 constexpr double kOpeningMargin_m = 0.12;  // frames reach this far beyond an opening's stated size
-constexpr double kInOpeningRatio = 0.8;    // of a patch's length: then it is a leaf, a pane or a frame, not the wall's face
+// A patch is a leaf, a pane or a frame if half of its height and this share of its length lie in an opening; recessed ones that join up with a
+// bit of wall sooner.
+constexpr double kInOpeningRatio = 0.9, kRecessedInOpeningRatio = 0.65, kInOpeningHeightRatio = 0.5, kRecess_m = 0.02;
+constexpr double kMinSingleArea_m2 = 0.6;  // a smaller patch seen from one keyframe only is too rough to tell
 constexpr double kStepPerMetre = 0.01;     // lines are compared at a distance: allow for their direction errors
 
 // A wall patch of the map, in plan coordinates.
@@ -48,13 +51,16 @@ std::vector<std::vector<WallOpening>> OpeningsOfWalls(const AGraph& plan) {
   return openings;
 }
 
-bool InOpening(const Patch& patch, const std::vector<WallOpening>& openings, const Eigen::Vector2d& along) {
+bool InOpening(const Patch& patch, const std::vector<WallOpening>& openings, const Eigen::Vector2d& along, bool recessed) {
   const double p0 = along.dot(patch.start), p1 = along.dot(patch.end);
+  const double ratio = recessed ? kRecessedInOpeningRatio : kInOpeningRatio;
   for (const WallOpening& o : openings) {
-    if (patch.z_min < o.z_min_m - kOpeningMargin_m || patch.z_max > o.z_max_m + kOpeningMargin_m) continue;
+    const double height_m =
+        std::min(patch.z_max, o.z_max_m + kOpeningMargin_m) - std::max(patch.z_min, o.z_min_m - kOpeningMargin_m);
+    if (height_m < kInOpeningHeightRatio * (patch.z_max - patch.z_min)) continue;
     const double middle = along.dot(o.middle), reach = 0.5 * o.width_m + kOpeningMargin_m;
     const double covered = std::min(std::max(p0, p1), middle + reach) - std::max(std::min(p0, p1), middle - reach);
-    if (covered >= kInOpeningRatio * std::abs(p1 - p0)) return true;
+    if (covered >= ratio * std::abs(p1 - p0)) return true;
   }
   return false;
 }
@@ -70,6 +76,7 @@ std::vector<Patch> WallPatches(const SGraph& map, const Eigen::Isometry3d& T_pla
   for (size_t i = 0; i < map.surfaces.size(); ++i) {
     const MapSurface& s = map.surfaces[i];
     if (s.kind != SurfaceKind::kWall || s.observations.empty()) continue;
+    if (s.observations.size() < 2 && s.area_m2 < kMinSingleArea_m2) continue;
     const Eigen::Vector3d start = T_plan_map * Eigen::Vector3d(s.start.x(), s.start.y(), s.z_min_m);
     const Eigen::Vector3d end = T_plan_map * Eigen::Vector3d(s.end.x(), s.end.y(), s.z_max_m);
     patches.push_back({static_cast<uint32_t>(i), start.head<2>(), end.head<2>(), T_plan_map.linear() * s.plane.n, start.z(), end.z(), s.area_m2});
@@ -96,7 +103,6 @@ std::optional<Candidate> Compare(const Patch& patch, SurfaceId id, const Surface
   if (to - from < kMinOverlap_m || OverlapRatio(std::min(a0, a1), std::max(a0, a1), 0, surface.length_m()) < options.min_overlap_ratio) {
     return std::nullopt;
   }
-  if (InOpening(patch, openings, along)) return std::nullopt;
   const double middle = 0.5 * (from + to);
   const Eigen::Vector2d on_patch = patch.start + (middle - a0) / (a1 - a0) * (patch.end - patch.start);
   const Eigen::Vector2d on_plan = surface.start + middle * along;
@@ -110,6 +116,7 @@ std::optional<Candidate> Compare(const Patch& patch, SurfaceId id, const Surface
   const double expected = known.offset_m * frame.normal.dot(n) + known.yaw_rad * n.head<2>().dot(Eigen::Vector2d(-arm.y(), arm.x()));
   const Eigen::Vector2d residual(c.offset_m - expected, yaw - known.yaw_rad);
   if (std::abs(residual.x()) > options.max_offset_m) return std::nullopt;
+  if (InOpening(patch, openings, along, std::min(c.offset_m, residual.x()) < -kRecess_m)) return std::nullopt;
   const double yaw_sigma = kMapSigma_m / std::max(patch.length(), 0.3);
   const Eigen::Matrix2d covariance = Eigen::Vector2d(kMapSigma_m * kMapSigma_m, yaw_sigma * yaw_sigma).asDiagonal();
   c.cost_nats = AssessMixture(residual, covariance, options).cost_nats - std::log((to - from) / std::max(patch.length(), to - from));

@@ -87,6 +87,7 @@ TEST(AssessDeviations, FacesCarryTheWallsMotionAlongTheirOwnNormals) {
 TEST(AssessDeviations, HardlySeenWallsAreUnobserved) {
   const AGraph house = test::MakeHouse();
   JointResult estimate;
+  estimate.covariances_exact = true;
   WallEstimate w;
   w.wall = WallId(kEast);
   w.reference = WallFrames(house)[kEast].reference;

@@ -159,7 +159,7 @@ class StepIndexer {
     while (true) {
       const char* stop = Next(p, ';', semicolon_);
       const char* limit = std::min(Next(p, '\'', quote_), stop);
-      if (const char* comment = FindComment(p, limit)) {
+      if (const char* comment = NextComment(p); comment < limit) {
         p = SkipStepSpace(comment, end_);
         continue;
       }
@@ -193,12 +193,13 @@ class StepIndexer {
     return found;
   }
 
-  static const char* FindComment(const char* p, const char* limit) {
-    while ((p = Find(p, limit, '/')) != nullptr) {
-      if (limit - p >= 2 && p[1] == '*') return p;
-      ++p;
+  // The same for the opening of a comment.
+  const char* NextComment(const char* p) {
+    if (comment_ != nullptr && comment_ >= p) return comment_;
+    for (comment_ = Find(p, end_, '/'); comment_ != nullptr; comment_ = Find(comment_ + 1, end_, '/')) {
+      if (end_ - comment_ >= 2 && comment_[1] == '*') return comment_;
     }
-    return nullptr;
+    return comment_ = end_;
   }
 
   // `#12=` in [p, limit): the `=` shows that an instance begins there.
@@ -240,6 +241,7 @@ class StepIndexer {
   const char* end_;
   const char* semicolon_ = nullptr;  // the next ones, as far as they were looked for
   const char* quote_ = nullptr;
+  const char* comment_ = nullptr;
   DiagnosticSink& diagnostics_;
   StepFile file_;
   TypeTable types_;

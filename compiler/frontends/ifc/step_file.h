@@ -29,7 +29,9 @@ class StepFile {
   [[nodiscard]] uint64_t id(uint32_t instance) const { return ids_[instance]; }  // 12 of #12
   [[nodiscard]] uint32_t Find(uint64_t id) const;                                // kNone if the file has no such id
   [[nodiscard]] StepArguments Arguments(uint32_t instance) const {
-    return {text_.data() + offsets_[instance], text_.data() + text_.size()};
+    // Up to the next instance: arguments without an end would else be read to the end of the file, once for each instance.
+    const size_t end = instance + 1 < size() ? offsets_[instance + 1] : text_.size();
+    return {text_.data() + offsets_[instance], text_.data() + end};
   }
   [[nodiscard]] uint32_t Line(uint32_t instance) const { return LineAt(offsets_[instance]); }
 

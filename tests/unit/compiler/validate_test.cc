@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "compiler/compile.h"
 #include "tests/support/house.h"
 
 namespace plumb::compiler {
@@ -87,6 +88,15 @@ TEST(ValidateGraph, FindsEmptyPlans) {
   g = test::MakeHouse();
   g.walls.emplace_back();
   EXPECT_EQ(CountOf(g, DiagnosticKind::kWallWithoutSurfaces), 1u);
+}
+
+TEST(Compile, RefusesInvalidOptions) {
+  CompileOptions options;
+  options.snap_radius_m = 0;
+  const CompileResult result = Compile("/nonexistent.ifc", options);
+  EXPECT_FALSE(result.graph);
+  EXPECT_TRUE(result.has_internal_error());
+  EXPECT_FALSE(Compile("/nonexistent.ifc").has_internal_error());
 }
 
 }  // namespace

@@ -44,6 +44,17 @@ TEST_F(StepFileTest, FindsInstancesTypesAndLines) {
   EXPECT_EQ(file.Find(99), StepFile::kNone);
 }
 
+// Reading the rest of the file for each of them would take minutes.
+TEST_F(StepFileTest, ManyStatementsWithoutAnEndCostLinearTime) {
+  std::string text = "ISO-10303-21;\nDATA;\n";
+  for (int i = 1; i <= 500000; ++i) text += "#" + std::to_string(i) + "=A(\n";
+  const StepFile& file = Index(text);
+  ASSERT_EQ(file.size(), 499999u);  // the last one is cut off
+  size_t arguments = 0;
+  for (uint32_t i = 0; i < file.size(); ++i) arguments += file.Arguments(i).size();
+  EXPECT_LE(arguments, 2u * file.size());
+}
+
 TEST_F(StepFileTest, StringsAndCommentsHideWhatLooksLikeInstances) {
   const StepFile& file =
       Index(test::IfcText("#10=IFCLABELED('; #99=IFCWALL(', 'it''s;');\n/* #98=IFCWALL('c'); */\n#11=IFCWALL(/* ; */ 'x');"));

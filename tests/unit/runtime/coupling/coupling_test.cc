@@ -71,6 +71,22 @@ TEST(MatchSurfaces, MeasuresOffsetAlongTheNormalAndYawCounterClockwise) {
   EXPECT_NEAR(MatchSurfaces(turned.map, house, Eigen::Isometry3d::Identity(), {}).at(0).yaw_rad, 5 * kDeg, 1e-9);
 }
 
+// A closed door in the middle of its wall is as large as many a wall patch, and 5 to 15 cm off the wall's face.
+TEST(MatchSurfaces, TakesNoLeafInADoorwayForTheWall) {
+  const AGraph house = test::MakeHouse();
+  Scene scene;
+  const uint32_t leaf = scene.Add({-0.15, 2.1}, {-0.15, 1.2}, 0.0, 2.0);       // in D3, A's west wall
+  const uint32_t with_frame = scene.Add({-0.06, 2.5}, {-0.06, 1.2}, 0.0, 2.2);  // grown together with a bit of wall
+  const uint32_t wall = scene.Add({0, 3.4}, {0, 2.2});
+  EXPECT_FALSE(scene.Of(house, leaf).valid());
+  EXPECT_FALSE(scene.Of(house, with_frame).valid());
+  EXPECT_EQ(scene.Of(house, wall), SurfaceId(3));
+
+  Scene displaced;  // the same wall 0.15 m further out, seen beside the door
+  const uint32_t moved = displaced.Add({-0.15, 3.4}, {-0.15, 2.2});
+  EXPECT_EQ(displaced.Of(house, moved), SurfaceId(3));
+}
+
 TEST(MatchSurfaces, NeverMatchesTheOtherFaceOfAWall) {
   const AGraph house = test::MakeHouse();
   Scene scene;

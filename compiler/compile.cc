@@ -7,6 +7,7 @@
 
 #include "compiler/emit/emit.h"
 #include "compiler/frontends/ifc/ifc_frontend.h"
+#include "compiler/passes/alias_forecast.h"
 #include "compiler/passes/build_agraph.h"
 #include "compiler/source/source.h"
 #include "compiler/validate.h"
@@ -44,6 +45,7 @@ std::optional<AGraph> Run(const std::string& path, const CompileOptions& options
   AGraph graph = std::move(built->graph);
   EmitMesh(*plan, graph);
   MoveToPlanFrame(*plan, graph);
+  ForecastAliases({}, graph);
   for (const Diagnostic& d : ValidateGraph(graph)) sink.Emit(d.kind, d.location, d.message, d.hint);
   EmitProvenance(*plan, Recorded(options), sink, graph);
   return graph;

@@ -29,6 +29,14 @@ auto PackAll(Builder& b, const Items& items, Function pack) {
   return b.CreateVector(offsets);
 }
 
+template <class Tag>
+auto PackIds(Builder& b, const std::vector<Id<Tag>>& ids) {
+  std::vector<uint32_t> values;
+  values.reserve(ids.size());
+  for (Id<Tag> id : ids) values.push_back(id.value);
+  return b.CreateVector(values);
+}
+
 auto Str(Builder& b, const std::string& s) { return b.CreateSharedString(s); }
 
 auto PackStoreys(Builder& b, const AGraph& g) {
@@ -67,12 +75,10 @@ auto PackRooms(Builder& b, const AGraph& g) {
     const auto guid = Str(b, r.guid), name = Str(b, r.name);
     const auto polygon = Pack(b, r.polygon);
     const auto holes = PackAll(b, r.holes, [&](const Ring& ring) { return Pack(b, ring); });
-    std::vector<uint32_t> surfaces;
-    for (SurfaceId id : r.surfaces) surfaces.push_back(id.value);
-    const auto packed_surfaces = b.CreateVector(surfaces);
+    const auto surfaces = PackIds(b, r.surfaces);
     const fb::Vec3 center = Pack(r.center);
     return fb::CreateRoom(b, guid, name, r.storey.value, polygon, holes, r.area_m2, &center, r.yaw_rad, r.floor_z_m, r.ceiling_z_m,
-                          packed_surfaces);
+                          surfaces);
   });
 }
 
@@ -143,8 +149,16 @@ auto PackMesh(Builder& b, const Mesh& mesh) {
 auto PackAliases(Builder& b, const AGraph& g) {
   return PackAll(b, g.aliases, [&](const Alias& a) {
     const fb::Vec3 translation = Pack(a.translation);
-    return fb::CreateAlias(b, a.yaw_rad, &translation, a.overlap_ratio, a.from_storey.value, a.to_storey.value);
+    const auto rooms = PackIds(b, a.rooms);
+    const auto twins = PackIds(b, a.twins);
+    const auto differences = PackIds(b, a.differences);
+    return fb::CreateAlias(b, a.yaw_rad, &translation, a.overlap_ratio, a.from_storey.value, a.to_storey.value, rooms, twins, a.tolerance_m,
+                           a.section_length_m, a.closed, differences);
   });
+}
+
+auto PackLookAlikes(Builder& b, const AGraph& g) {
+  return PackAll(b, g.look_alikes, [&](const LookAlikes& l) { return fb::CreateLookAlikes(b, PackIds(b, l.rooms)); });
 }
 
 auto PackDiagnostics(Builder& b, const AGraph& g) {
@@ -185,10 +199,11 @@ std::vector<uint8_t> WriteAGraph(const AGraph& g) {
   const auto aliases = PackAliases(b, g);
   const auto diagnostics = PackDiagnostics(b, g);
   const auto open_boundaries = PackOpenBoundaries(b, g);
+  const auto look_alikes = PackLookAlikes(b, g);
   const fb::Vec3 origin = Pack(g.origin);
   b.Finish(fb::CreateAGraph(b, kSchemaMajor, kSchemaMinor, tool_version, source_path, source_format, source_sha256, options, &origin, storeys,
                             walls, surfaces, rooms, doorways, windows, columns, factors, elements, mesh, aliases, diagnostics,
-                            open_boundaries),
+                            open_boundaries, look_alikes),
            fb::AGraphIdentifier());
   return {b.GetBufferPointer(), b.GetBufferPointer() + b.GetSize()};
 }

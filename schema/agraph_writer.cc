@@ -135,15 +135,14 @@ auto PackElements(Builder& b, const AGraph& g) {
 }
 
 auto PackMesh(Builder& b, const Mesh& mesh) {
-  std::vector<fb::Vec3f> vertices;
-  vertices.reserve(mesh.vertices.size());
-  for (const auto& v : mesh.vertices) vertices.emplace_back(v.x(), v.y(), v.z());
-  std::vector<fb::Triangle> triangles;
-  triangles.reserve(mesh.triangles.size());
-  for (const auto& t : mesh.triangles) triangles.emplace_back(t.a, t.b, t.c, t.element);
-  const auto packed_vertices = b.CreateVectorOfStructs(vertices);
-  const auto packed_triangles = b.CreateVectorOfStructs(triangles);
-  return fb::CreateMesh(b, packed_vertices, packed_triangles);
+  const auto vertices = b.CreateVectorOfStructs<fb::Vec3f>(mesh.vertices.size(), [&](size_t i, fb::Vec3f* out) {
+    *out = {mesh.vertices[i].x(), mesh.vertices[i].y(), mesh.vertices[i].z()};
+  });
+  const auto triangles = b.CreateVectorOfStructs<fb::Triangle>(mesh.triangles.size(), [&](size_t i, fb::Triangle* out) {
+    const Triangle& t = mesh.triangles[i];
+    *out = {t.a, t.b, t.c, t.element};
+  });
+  return fb::CreateMesh(b, vertices, triangles);
 }
 
 auto PackAliases(Builder& b, const AGraph& g) {
@@ -176,10 +175,12 @@ auto PackOptions(Builder& b, const AGraph& g) {
   });
 }
 
-}  // namespace
+// The mesh makes up most of a large file; a builder that has to grow holds the file twice.
+size_t ExpectedBytes(const AGraph& g) {
+  return (1 << 20) + g.mesh.vertices.size() * sizeof(fb::Vec3f) + g.mesh.triangles.size() * sizeof(fb::Triangle);
+}
 
-std::vector<uint8_t> WriteAGraph(const AGraph& g) {
-  Builder b(1 << 20);
+void Pack(const AGraph& g, Builder& b) {
   // Sequenced statements: the order of evaluation of call arguments, and so the bytes, would differ between compilers.
   const auto tool_version = Str(b, g.tool_version);
   const auto source_path = Str(b, g.source_path);
@@ -205,9 +206,20 @@ std::vector<uint8_t> WriteAGraph(const AGraph& g) {
                             walls, surfaces, rooms, doorways, windows, columns, factors, elements, mesh, aliases, diagnostics,
                             open_boundaries, look_alikes),
            fb::AGraphIdentifier());
+}
+
+}  // namespace
+
+std::vector<uint8_t> WriteAGraph(const AGraph& graph) {
+  Builder b(ExpectedBytes(graph));
+  Pack(graph, b);
   return {b.GetBufferPointer(), b.GetBufferPointer() + b.GetSize()};
 }
 
-Expected<void> WriteAGraphFile(const AGraph& graph, const std::string& path) { return WriteFileAtomically(path, WriteAGraph(graph)); }
+Expected<void> WriteAGraphFile(const AGraph& graph, const std::string& path) {
+  Builder b(ExpectedBytes(graph));
+  Pack(graph, b);
+  return WriteFileAtomically(path, std::span<const uint8_t>(b.GetBufferPointer(), b.GetSize()));
+}
 
 }  // namespace plumb

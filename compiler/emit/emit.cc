@@ -95,6 +95,13 @@ class Mover {
 void EmitMesh(const PlanIr& plan, AGraph& graph) {
   const Eigen::Vector3d shift = ShiftOf(plan);
   graph.origin = plan.origin + shift;
+  size_t vertices = 0, triangles = 0;
+  for (const PlanElement& e : plan.elements) {
+    vertices += e.body.vertices.size();
+    triangles += e.body.triangles.size();
+  }
+  graph.mesh.vertices.reserve(vertices);
+  graph.mesh.triangles.reserve(triangles);
   VertexTable table(graph.mesh.vertices);
   std::vector<uint32_t> index;
   for (uint32_t e = 0; e < plan.elements.size(); ++e) {

@@ -4,47 +4,19 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
-#include <numbers>
 #include <tuple>
 
 #include "compiler/passes/polygon.h"
+#include "compiler/passes/twin_classes.h"
 
 namespace plumb::compiler {
 namespace {
 
-constexpr int kYawBins = 180;                             // of votes
-constexpr double kPlaceBin_m = 0.5, kHeightBin_m = 0.5;   // of votes
-constexpr double kSameMotion_m = 0.3;                     // closer everywhere, and it is one motion
+constexpr double kSameMotion_m = 0.3;  // closer everywhere, and it is one motion
 constexpr size_t kTriesPerAlias = 4;
 constexpr size_t kMaxDifferences = 8;
-
-// Rooms of one shape whose sections coincide, and the motions that take the first onto each.
-struct TwinClass {
-  std::vector<RoomId> rooms;
-  std::vector<std::vector<PlanarMotion>> motions;
-  std::vector<RoomId> by_x;  // of the centre
-
-  [[nodiscard]] size_t symmetries() const { return motions.front().size(); }
-  [[nodiscard]] size_t votes() const { return rooms.size() * (rooms.size() + 1) / 2 * symmetries(); }
-  [[nodiscard]] PlanarMotion Between(size_t from, size_t to, size_t symmetry) const {
-    return motions[to][symmetry].After(motions[from].front().Inverse());
-  }
-};
-
-// A room and the one that a motion takes it onto.
-struct Pair {
-  RoomId from, to;
-};
-
-// A vote of two rooms of one class for a motion.
-struct Vote {
-  std::array<int32_t, 4> bin{};  // yaw, and where the middle of the plan goes
-  Pair pair;
-  PlanarMotion motion;
-};
 
 struct Candidate {
   PlanarMotion motion;
@@ -57,8 +29,10 @@ class Forecast {
       : graph_(graph), options_(options), shapes_(graph, options.twins), sections_(graph, Wanted(), options.sections), box_(BoxOfRooms()) {}
 
   void Run() {
-    FindClasses();
-    ListLookAlikes();
+    classes_ = FindTwinClasses(shapes_, sections_, graph_.rooms.size(), options_.min_overlap_ratio);
+    for (const TwinClass& c : classes_) {
+      if (c.rooms.size() > 1) graph_.look_alikes.push_back({c.rooms});
+    }
     for (const Candidate& c : Candidates()) {
       if (graph_.aliases.size() == options_.max_aliases) break;
       AddAlias(c.motion);
@@ -80,87 +54,16 @@ class Forecast {
     return wanted;
   }
 
-  bool Coincide(RoomId a, const PlanarMotion& motion, RoomId b) const {
-    return sections_.Compare(a, motion, b).overlap_ratio() >= options_.min_overlap_ratio;
-  }
-
-  // Motions of `a` onto `b` under which their sections coincide.
-  std::vector<PlanarMotion> Verified(RoomId a, RoomId b) const {
-    std::vector<PlanarMotion> motions = shapes_.MotionsOnto(a, b);
-    std::erase_if(motions, [&](const PlanarMotion& m) { return !Coincide(a, m, b); });
-    return motions;
-  }
-
-  void FindClasses() {
-    for (size_t r = 0; r < graph_.rooms.size(); ++r) {
-      const RoomId room(r);
-      if (sections_.Of(room).empty()) continue;
-      bool joined = false;
-      for (size_t c = 0; c < classes_.size() && !joined; ++c) {
-        if (!shapes_.MayBeTwins(classes_[c].rooms.front(), room)) continue;
-        std::vector<PlanarMotion> motions = Verified(classes_[c].rooms.front(), room);
-        // A room near the limit may have fewer motions than its class has symmetries; it then stands alone.
-        joined = motions.size() >= classes_[c].motions.front().size();
-        if (joined) Join(room, std::move(motions), c);
-      }
-      if (joined) continue;
-      classes_.emplace_back();
-      Join(room, Verified(room, room), classes_.size() - 1);
-    }
-    for (TwinClass& c : classes_) {
-      c.by_x = c.rooms;
-      std::stable_sort(c.by_x.begin(), c.by_x.end(), [&](RoomId a, RoomId b) { return shapes_.Center(a).x() < shapes_.Center(b).x(); });
-    }
-  }
-
-  void Join(RoomId room, std::vector<PlanarMotion> motions, size_t c) {
-    classes_[c].rooms.push_back(room);
-    classes_[c].motions.push_back(std::move(motions));
-  }
-
-  void ListLookAlikes() {
-    for (const TwinClass& c : classes_) {
-      if (c.rooms.size() > 1) graph_.look_alikes.push_back({c.rooms});
-    }
-  }
-
-  // For each two rooms of a class, and each way to take one onto the other. Sorted by bin. Classes share the limit; small ones come first
-  // and leave the others what they do not need.
-  std::vector<Vote> Votes() const {
-    std::vector<const TwinClass*> rarest;
-    for (const TwinClass& c : classes_) rarest.push_back(&c);
-    std::stable_sort(rarest.begin(), rarest.end(), [](const TwinClass* a, const TwinClass* b) { return a->votes() < b->votes(); });
-    std::vector<Vote> votes;
-    for (size_t i = 0; i < rarest.size(); ++i) {
-      const TwinClass& c = *rarest[i];
-      const size_t share = (options_.max_votes - std::min(votes.size(), options_.max_votes)) / (rarest.size() - i), limit = votes.size() + share;
-      for (size_t a = 0; a < c.rooms.size() && votes.size() < limit; ++a) {
-        for (size_t b = a; b < c.rooms.size() && votes.size() < limit; ++b) {
-          for (size_t s = a == b ? 1 : 0; s < c.symmetries(); ++s) votes.push_back(VoteFor({c.rooms[a], c.rooms[b]}, c.Between(a, b, s)));
-        }
-      }
-    }
-    std::stable_sort(votes.begin(), votes.end(), [](const Vote& a, const Vote& b) { return a.bin < b.bin; });
-    return votes;
-  }
-
-  Vote VoteFor(const Pair& pair, const PlanarMotion& motion) const {
-    const Eigen::Vector3d middle = box_.center(), to = motion.Apply(middle);
-    const auto bin = [](double value, double width) { return static_cast<int32_t>(std::lround(value / width)); };
-    const int32_t yaw = (bin(motion.yaw_rad(), 2 * std::numbers::pi / kYawBins) + kYawBins) % kYawBins;
-    return {{yaw, bin(to.x(), kPlaceBin_m), bin(to.y(), kPlaceBin_m), bin(to.z(), kHeightBin_m)}, pair, motion};
-  }
-
   // The motions that several connected rooms vote for, or a room that leads nowhere else; most section first.
   std::vector<Candidate> Candidates() const {
-    const std::vector<Vote> votes = Votes();
+    const std::vector<MotionVote> votes = VotesFor(classes_, box_.center(), options_.max_votes);
     std::vector<Candidate> out;
     for (size_t first = 0, last = 0; first < votes.size(); first = last) {
-      std::vector<Pair> pairs;
+      std::vector<RoomPair> pairs;
       for (; last < votes.size() && votes[last].bin == votes[first].bin; ++last) pairs.push_back(votes[last].pair);
       size_t points = 0;
       for (const Part& part : PartsThatStay(std::move(pairs))) {
-        for (const Pair& pair : part.pairs) points += sections_.Of(pair.from).size();
+        for (const RoomPair& pair : part.pairs) points += sections_.Of(pair.from).size();
       }
       if (points > 0) out.push_back({votes[first].motion, points});
     }
@@ -171,12 +74,12 @@ class Forecast {
 
   // Rooms that hang together through doorways, and what a motion takes them onto.
   struct Part {
-    std::vector<Pair> pairs;
+    std::vector<RoomPair> pairs;
     bool closed = false;  // neither these rooms nor their twins lead to others
   };
 
-  std::vector<Part> PartsThatStay(std::vector<Pair> pairs) const {
-    std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return std::tie(a.from, a.to) < std::tie(b.from, b.to); });
+  std::vector<Part> PartsThatStay(std::vector<RoomPair> pairs) const {
+    std::sort(pairs.begin(), pairs.end(), [](const RoomPair& a, const RoomPair& b) { return std::tie(a.from, a.to) < std::tie(b.from, b.to); });
     std::vector<bool> seen(pairs.size(), false);
     std::vector<Part> parts;
     for (size_t i = 0; i < pairs.size(); ++i) {
@@ -186,7 +89,7 @@ class Forecast {
       seen[i] = true;
       for (size_t k = 0; k < part.pairs.size(); ++k) {
         for (RoomId next : shapes_.Neighbours(part.pairs[k].from)) {
-          auto it = std::lower_bound(pairs.begin(), pairs.end(), next, [](const Pair& p, RoomId room) { return p.from < room; });
+          auto it = std::lower_bound(pairs.begin(), pairs.end(), next, [](const RoomPair& p, RoomId room) { return p.from < room; });
           for (; it != pairs.end() && it->from == next; ++it) {
             const size_t j = static_cast<size_t>(it - pairs.begin());
             if (!seen[j]) part.pairs.push_back(*it);
@@ -194,7 +97,7 @@ class Forecast {
           }
         }
       }
-      part.closed = LeadsNowhereElse(part.pairs, &Pair::from) && LeadsNowhereElse(part.pairs, &Pair::to);
+      part.closed = LeadsNowhereElse(part.pairs, &RoomPair::from) && LeadsNowhereElse(part.pairs, &RoomPair::to);
       const bool is_shaft = part.pairs.size() == 1 && IsShaft(part.pairs.front().from);
       if (!is_shaft && (part.closed || part.pairs.size() > 1)) parts.push_back(std::move(part));
     }
@@ -208,9 +111,9 @@ class Forecast {
            std::any_of(graph_.doorways.begin(), graph_.doorways.end(), [&](const Doorway& d) { return d.storey == storey; });
   }
 
-  bool LeadsNowhereElse(const std::vector<Pair>& pairs, RoomId Pair::*side) const {
+  bool LeadsNowhereElse(const std::vector<RoomPair>& pairs, RoomId RoomPair::*side) const {
     std::vector<RoomId> rooms;
-    for (const Pair& p : pairs) rooms.push_back(p.*side);
+    for (const RoomPair& p : pairs) rooms.push_back(p.*side);
     std::sort(rooms.begin(), rooms.end());
     return std::all_of(rooms.begin(), rooms.end(), [&](RoomId room) {
       const std::vector<RoomId>& next = shapes_.Neighbours(room);
@@ -219,8 +122,8 @@ class Forecast {
   }
 
   // All rooms that `motion` takes onto another of their class.
-  std::vector<Pair> RoomsTaken(const PlanarMotion& motion) const {
-    std::vector<Pair> pairs;
+  std::vector<RoomPair> RoomsTaken(const PlanarMotion& motion) const {
+    std::vector<RoomPair> pairs;
     const double reach_m = 2 * options_.twins.tolerance_m;
     for (const TwinClass& c : classes_) {
       for (RoomId room : c.rooms) {
@@ -235,15 +138,15 @@ class Forecast {
   }
 
   // Least squares over the centres of the rooms; the motion of one vote leans on one room's longest wall.
-  PlanarMotion Fitted(const PlanarMotion& motion, const std::vector<Pair>& pairs) const {
+  PlanarMotion Fitted(const PlanarMotion& motion, const std::vector<RoomPair>& pairs) const {
     if (pairs.size() < 2) return motion;
     Eigen::Vector3d from = Eigen::Vector3d::Zero(), to = Eigen::Vector3d::Zero();
-    for (const Pair& p : pairs) {
+    for (const RoomPair& p : pairs) {
       from += shapes_.Center(p.from) / static_cast<double>(pairs.size());
       to += shapes_.Center(p.to) / static_cast<double>(pairs.size());
     }
     double dot = 0, cross = 0;
-    for (const Pair& p : pairs) {
+    for (const RoomPair& p : pairs) {
       const Eigen::Vector2d u = (shapes_.Center(p.from) - from).head<2>(), v = (shapes_.Center(p.to) - to).head<2>();
       dot += u.dot(v);
       cross += Cross(u, v);
@@ -263,18 +166,26 @@ class Forecast {
     });
   }
 
+  using Comparisons = std::map<RoomId, SectionComparison>;  // of a room with its twin
+
   void AddAlias(const PlanarMotion& voted) {
     const PlanarMotion motion = Fitted(voted, RoomsTaken(voted));
     if (IsKnown(motion)) return;
     known_.push_back(motion);
     known_.push_back(motion.Inverse());
-    std::vector<Pair> pairs = RoomsTaken(motion);
-    std::erase_if(pairs, [&](const Pair& p) { return !Coincide(p.from, motion, p.to); });
+    std::vector<RoomPair> pairs = RoomsTaken(motion);
+    Comparisons compared;
+    std::erase_if(pairs, [&](const RoomPair& p) {
+      SectionComparison c = sections_.Compare(p.from, motion, p.to);
+      const bool coincide = c.overlap_ratio() >= options_.min_overlap_ratio;
+      if (coincide) compared[p.from] = std::move(c);
+      return !coincide;
+    });
     const std::vector<Part> parts = PartsThatStay(std::move(pairs));
-    if (!parts.empty()) graph_.aliases.push_back(AliasOf(motion, parts));
+    if (!parts.empty()) graph_.aliases.push_back(AliasOf(motion, parts, compared));
   }
 
-  Alias AliasOf(const PlanarMotion& motion, const std::vector<Part>& parts) const {
+  Alias AliasOf(const PlanarMotion& motion, const std::vector<Part>& parts, const Comparisons& compared) const {
     Alias alias;
     alias.yaw_rad = motion.yaw_rad();
     const Eigen::Vector2d origin = graph_.origin.head<2>();
@@ -282,16 +193,16 @@ class Forecast {
     alias.translation.head<2>() += origin - motion.Rotate(origin);
     alias.tolerance_m = options_.sections.tolerance_m;
     alias.closed = std::all_of(parts.begin(), parts.end(), [](const Part& p) { return p.closed; });
-    std::vector<Pair> pairs;
+    std::vector<RoomPair> pairs;
     for (const Part& part : parts) pairs.insert(pairs.end(), part.pairs.begin(), part.pairs.end());
-    std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return a.from < b.from; });
-    for (const Pair& p : pairs) {
+    std::sort(pairs.begin(), pairs.end(), [](const RoomPair& a, const RoomPair& b) { return a.from < b.from; });
+    for (const RoomPair& p : pairs) {
       alias.rooms.push_back(p.from);
       alias.twins.push_back(p.to);
     }
     alias.from_storey = StoreyOf(alias.rooms);
     alias.to_storey = StoreyOf(alias.twins);
-    AddOverlap(motion, pairs, alias);
+    AddOverlap(compared, alias);
     return alias;
   }
 
@@ -302,16 +213,16 @@ class Forecast {
     return one ? storey : StoreyId();
   }
 
-  void AddOverlap(const PlanarMotion& motion, const std::vector<Pair>& pairs, Alias& alias) const {
+  void AddOverlap(const Comparisons& compared, Alias& alias) const {
     const double heights = static_cast<double>(options_.sections.heights_m.size());
     size_t points = 0, unmatched = 0;
     std::map<uint32_t, size_t> by_element;
-    for (const Pair& p : pairs) {
-      const SectionComparison compared = sections_.Compare(p.from, motion, p.to);
-      points += compared.points;
-      unmatched += compared.unmatched_elements.size();
-      alias.section_length_m += static_cast<double>(sections_.Of(p.from).size()) * sections_.step_m() / heights;
-      for (uint32_t e : compared.unmatched_elements) ++by_element[e];
+    for (RoomId room : alias.rooms) {
+      const SectionComparison& c = compared.at(room);
+      points += c.points;
+      unmatched += c.unmatched_elements.size();
+      alias.section_length_m += static_cast<double>(sections_.Of(room).size()) * sections_.step_m() / heights;
+      for (uint32_t e : c.unmatched_elements) ++by_element[e];
     }
     alias.overlap_ratio = 1 - static_cast<double>(unmatched) / static_cast<double>(points);
     std::vector<std::pair<uint32_t, size_t>> differences;

@@ -194,7 +194,7 @@ class RoomSections::Cutter {
 };
 
 RoomSections::RoomSections(const AGraph& graph, const std::vector<bool>& wanted, const SectionOptions& options)
-    : options_(options), begin_(graph.rooms.size() + 1), grids_(graph.rooms.size()) {
+    : options_(options), min_cos_(std::cos(options.max_turn_rad)), begin_(graph.rooms.size() + 1), grids_(graph.rooms.size()) {
   const auto found = Cutter(graph, wanted, options_).Run();
   for (const auto& [room, point] : found) ++begin_[room.index() + 1];
   std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
@@ -231,7 +231,7 @@ void RoomSections::BuildGrid(size_t room) {
 
 bool RoomSections::Coincides(RoomId room, const SectionPoint& p) const {
   const Grid& grid = grids_[room.index()];
-  const double along_m = options_.step_m / 2 + options_.tolerance_m, min_cos = std::cos(options_.max_turn_rad);
+  const double along_m = options_.step_m / 2 + options_.tolerance_m;
   const Eigen::Vector2d at = p.at - grid.low;
   const int x0 = CellAt(at.x() - along_m, grid.cell_m, grid.columns), x1 = CellAt(at.x() + along_m, grid.cell_m, grid.columns);
   const int y0 = CellAt(at.y() - along_m, grid.cell_m, grid.rows), y1 = CellAt(at.y() + along_m, grid.cell_m, grid.rows);
@@ -239,8 +239,9 @@ bool RoomSections::Coincides(RoomId room, const SectionPoint& p) const {
     const size_t row = (static_cast<size_t>(p.height) * static_cast<size_t>(grid.rows) + static_cast<size_t>(y)) * static_cast<size_t>(grid.columns);
     for (uint32_t i = grid.begin[row + static_cast<size_t>(x0)]; i < grid.begin[row + static_cast<size_t>(x1) + 1]; ++i) {
       const Eigen::Vector2d off = points_[i].at - p.at;
-      if (points_[i].normal.dot(p.normal) < min_cos) continue;
-      if (std::abs(off.dot(p.normal)) <= options_.tolerance_m && std::abs(Cross(p.normal, off)) <= along_m) return true;
+      if (std::abs(off.dot(p.normal)) <= options_.tolerance_m && std::abs(Cross(p.normal, off)) <= along_m &&
+          points_[i].normal.dot(p.normal) >= min_cos_)
+        return true;
     }
   }
   return false;

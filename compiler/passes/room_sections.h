@@ -64,6 +64,7 @@ class RoomSections {
   void CompareOneWay(RoomId from, const PlanarMotion& motion, RoomId to, SectionComparison& out) const;
 
   SectionOptions options_;
+  double min_cos_;
   std::vector<SectionPoint> points_;  // by room, then by cell of its grid
   std::vector<uint32_t> begin_;       // per room, and the end
   std::vector<Grid> grids_;           // per room

@@ -69,10 +69,10 @@ double Best(int runs, Function once) {
 }
 
 struct Measured {
-  double ms = 0, peak_mb = 0;
+  double value = 0, peak_mb = 0;
 };
 
-// Runs `work` in a child, so that its peak of memory is its own. None: the child failed.
+// Runs `work` in a child, so that its memory is its own. None: the child failed.
 std::optional<Measured> InChild(const std::function<double()>& work) {
   int ends[2];
   if (pipe(ends) != 0) return std::nullopt;
@@ -80,13 +80,13 @@ std::optional<Measured> InChild(const std::function<double()>& work) {
   const pid_t child = fork();
   if (child < 0) return std::nullopt;
   if (child == 0) {
-    const double ms = work();
-    const bool told = write(ends[1], &ms, sizeof(ms)) == sizeof(ms);
+    const double value = work();
+    const bool told = write(ends[1], &value, sizeof(value)) == sizeof(value);
     _exit(told ? 0 : 1);
   }
   close(ends[1]);
   Measured out;
-  const bool heard = read(ends[0], &out.ms, sizeof(out.ms)) == sizeof(out.ms);
+  const bool heard = read(ends[0], &out.value, sizeof(out.value)) == sizeof(out.value);
   close(ends[0]);
   int status = 0;
   rusage used{};
@@ -120,25 +120,36 @@ std::optional<double> Assimp_ms(const fs::path& plan) {
   return 1000 * std::strtod(out->c_str() + at + 20, nullptr);
 }
 
-std::optional<double> BestOf(int runs, const std::function<std::optional<double>()>& once) {
-  std::optional<double> best = once();
-  for (int i = 1; i < runs && best; ++i) {
-    if (const auto again = once()) best = std::min(*best, *again);
-  }
-  return best;
+void KeepLeast(std::optional<double>& best, const std::optional<double>& value) {
+  if (value) best = std::min(best.value_or(*value), *value);
 }
 
-double ScanSpeed_mb_s(const fs::path& plan, const Options& options) {
-  compiler::DiagnosticSink sink;
-  const auto source = compiler::LoadSource(plan.string(), sink);
-  if (!source) return 0;
-  const double ms = Best(options.runs, [&] {
-    return Timed_ms(options, [&] {
-      compiler::DiagnosticSink ignored;
-      (void)compiler::StepFile::Index(source->bytes, ignored);
-    });
+// The best of some runs, in a child. `setup` gives what `work` needs and is not timed.
+template <class Setup, class Work>
+double BestInChild_ms(const Options& options, Setup setup, Work work) {
+  const auto measured = InChild([&] {
+    auto input = setup();
+    return Best(options.runs, [&] { return Timed_ms(options, [&] { work(input); }); });
   });
-  return static_cast<double>(source->bytes.size()) / kMegabyte / (ms / 1000);
+  return measured ? measured->value : 0;
+}
+
+double Scan_ms(const fs::path& plan, const Options& options) {
+  const auto load = [&] {
+    compiler::DiagnosticSink ignored;
+    return compiler::LoadSource(plan.string(), ignored);
+  };
+  return BestInChild_ms(options, load, [](const std::optional<compiler::Source>& source) {
+    compiler::DiagnosticSink ignored;
+    if (source) (void)compiler::StepFile::Index(source->bytes, ignored);
+  });
+}
+
+double Compile_ms(const fs::path& plan, const std::string& agraph, const Options& options) {
+  return Timed_ms(options, [&] {
+    const compiler::CompileResult result = compiler::Compile(plan.string());
+    if (!result.graph || !WriteAGraphFile(*result.graph, agraph)) _exit(1);
+  });
 }
 
 std::optional<Row> Measure(const fs::path& plan, const fs::path& folder, const Options& options) {
@@ -147,25 +158,19 @@ std::optional<Row> Measure(const fs::path& plan, const fs::path& folder, const O
   row.size_mb = static_cast<double>(fs::file_size(plan)) / kMegabyte;
   const std::string agraph = (folder / "plan.agraph").string();
   row.compile_ms = row.peak_mb = 1e12;
+  // In turns, so that a busy machine is busy for all.
   for (int i = 0; i < options.runs; ++i) {
-    const auto measured = InChild([&] {
-      return Timed_ms(options, [&] {
-        const compiler::CompileResult result = compiler::Compile(plan.string());
-        if (!result.graph || !WriteAGraphFile(*result.graph, agraph)) _exit(1);
-      });
-    });
+    const auto measured = InChild([&] { return Compile_ms(plan, agraph, options); });
     if (!measured) return std::nullopt;
-    row.compile_ms = std::min(row.compile_ms, measured->ms);
+    row.compile_ms = std::min(row.compile_ms, measured->value);
     row.peak_mb = std::min(row.peak_mb, measured->peak_mb);
+    KeepLeast(row.web_ifc_ms, WebIfc_ms(plan, options));
+    if (!options.cpu) KeepLeast(row.assimp_ms, Assimp_ms(plan));
   }
   row.agraph_mb = static_cast<double>(fs::file_size(agraph)) / kMegabyte;
-  if (auto graph = ReadAGraphFile(agraph)) {
-    row.forecast_ms = Best(options.runs, [&] { return Timed_ms(options, [&] { compiler::ForecastAliases({}, *graph); }); });
-  }
-  row.open_ms = Best(options.runs, [&] { return Timed_ms(options, [&] { (void)ReadAGraphFile(agraph); }); });
-  row.scan_mb_s = ScanSpeed_mb_s(plan, options);
-  row.web_ifc_ms = BestOf(options.runs, [&] { return WebIfc_ms(plan, options); });
-  if (!options.cpu) row.assimp_ms = BestOf(options.runs, [&] { return Assimp_ms(plan); });
+  row.forecast_ms = BestInChild_ms(options, [&] { return ReadAGraphFile(agraph); }, [](Expected<AGraph>& graph) { compiler::ForecastAliases({}, *graph); });
+  row.open_ms = BestInChild_ms(options, [] { return 0; }, [&](int) { (void)ReadAGraphFile(agraph); });
+  row.scan_mb_s = 1000 * row.size_mb / std::max(1e-3, Scan_ms(plan, options));
   return row;
 }
 

@@ -45,7 +45,7 @@ struct Match {
 // two surfaces. Ambiguous assignments are decided by the smallest sum of -log p. All patches of one side of one wall lie on one line: where
 // they do not, one line is the wall and the others go to their next candidate or stay unmatched (furniture). A line that lies behind
 // another and reaches higher, or has at least half its area, is the wall rather than the one in front: nothing is seen through a wall.
-// A patch within a doorway or window of the wall is a leaf, a pane or a frame, and never matched to the wall.
+// A patch most of which was seen in doorways and windows of the wall is leaves, panes and frames, and never matched to the wall.
 // `known`: per plan wall the deviation estimated so far (empty at first), so that a deviated wall keeps its patches.
 // In the order of map surfaces. O(map surfaces * plan surfaces). Deterministic.
 [[nodiscard]] std::vector<Match> MatchSurfaces(const SGraph& map, const AGraph& plan, const Eigen::Isometry3d& T_plan_map,

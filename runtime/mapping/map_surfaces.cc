@@ -33,6 +33,11 @@ void UpdateExtent(const SurfaceTrack& track, MapSurface* surface) {
     s.end = patch.Point({hi.x(), middle}).head<2>();
     s.z_min_m = patch.Point({lo.x(), lo.y()}).z();
     s.z_max_m = patch.Point({lo.x(), hi.y()}).z();
+    s.cells.clear();
+    for (const Eigen::Vector2f& at : patch.cells()) {
+      const Eigen::Vector2d c = at.cast<double>();
+      s.cells.emplace_back(static_cast<float>(c.x() - lo.x()), static_cast<float>(patch.Point(c).z()));
+    }
     return;
   }
   s.z_min_m = s.z_max_m = track.sum.centroid().z();

@@ -38,7 +38,7 @@ struct MatcherOptions {
   double vouch_lead_nats = 30;
   double vouch_lead_ratio = 0.4;
   double vouch_nearly_all_ratio = 0.9;
-  int vouch_min_planes = 4;
+  int vouch_min_planes = 4;                   // one less where nearly all rays end where they should and few go through walls
   double vouch_max_through_ratio = 0.06;
   double vouch_sigma_xy_m = 0.25;             // the place; which of the walls deviate is left to the coupling
   [[nodiscard]] std::string Check() const;

@@ -80,7 +80,10 @@ bool RaysVouch(const std::vector<Candidate>& sorted, double mirrored, const Matc
 std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, int required_planes, bool rays_vouch,
                   const MatcherOptions& options) {
   const WallFit& fit = candidate.fit;
-  if (rays_vouch) required_planes = std::min(required_planes, options.vouch_min_planes);
+  if (rays_vouch) {
+    const bool nearly_all = candidate.rays.explained_ratio >= options.vouch_nearly_all_ratio && candidate.rays.through_ratio <= options.accept_max_through_ratio;
+    required_planes = std::min(required_planes, options.vouch_min_planes - (nearly_all ? 1 : 0));
+  }
   const double max_sigma_xy_m = rays_vouch ? options.vouch_sigma_xy_m : options.accept_sigma_xy_m;
   if (hypothesis.sigma_xy_m > max_sigma_xy_m || hypothesis.sigma_yaw_rad > options.accept_sigma_yaw_rad) {
     return "too few walls agree to fix the position in every direction";

@@ -26,6 +26,8 @@ constexpr double kRecess_m = 0.02;         // leaves, panes and frames lie at le
 constexpr double kOffPlan_m = 0.06;        // a wall further off its plan ...
 constexpr double kMaxPassedRatio = 0.2;    // ... must stop the lines of sight, all but so many
 constexpr size_t kMinPassed = 5;
+constexpr double kInOpeningRatio = 0.6;    // of an observation's extent either way: it is of what fills the opening
+constexpr double kHalfExtentSigmas = 1.7;  // half the extent of evenly spread points
 constexpr double kMinSingleArea_m2 = 0.6;  // a smaller patch seen from one keyframe only is too rough to tell
 constexpr double kStepPerMetre = 0.01;     // lines are compared at a distance: allow for their direction errors
 
@@ -50,6 +52,31 @@ double OpenRatio(const Patch& patch, const std::vector<WallOpening>& openings, c
     open += InOpening(openings, along, from + per_metre * cell.x(), cell.y() + patch.z_shift, margin_m) ? 1 : 0;
   }
   return static_cast<double>(open) / static_cast<double>(patch.cells->size());
+}
+
+// The observations that lie in one of the wall's openings for the most part.
+std::vector<uint32_t> SeenInOpenings(const SGraph& map, const MapSurface& seen, const Surface& surface, const std::vector<WallOpening>& openings,
+                                     const Eigen::Isometry3d& T_plan_map) {
+  std::vector<uint32_t> out;
+  const Eigen::Vector2d along = (surface.end - surface.start).normalized();
+  Eigen::Matrix<double, 4, 2> axes = Eigen::Matrix<double, 4, 2>::Zero();  // along and up, of homogeneous points
+  axes.col(0).head<2>() = along;
+  axes(2, 1) = 1;
+  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(kOpeningMargin_m);
+  for (uint32_t i = 0; i < seen.observations.size(); ++i) {
+    const Observation& o = seen.observations[i];
+    const PlaneStats stats = o.stats.Transformed(T_plan_map * map.keyframes[o.keyframe].T_map_kf);
+    const Eigen::Vector2d middle = axes.transpose() * stats.C.col(3) / stats.count();
+    const Eigen::Vector2d variance = (axes.transpose() * stats.C * axes).diagonal() / stats.count() - middle.cwiseAbs2();
+    const Eigen::Vector2d reach = kHalfExtentSigmas * variance.cwiseMax(0.0).cwiseSqrt();
+    const bool inside = std::any_of(openings.begin(), openings.end(), [&](const WallOpening& w) {
+      const Eigen::Vector2d lo(along.dot(w.middle) - 0.5 * w.width_m, w.z_min_m), hi(along.dot(w.middle) + 0.5 * w.width_m, w.z_max_m);
+      const Eigen::Vector2d covered = (middle + reach).cwiseMin(hi + margin) - (middle - reach).cwiseMax(lo - margin);
+      return (covered.array() >= kInOpeningRatio * 2 * reach.array()).all();
+    });
+    if (inside) out.push_back(i);
+  }
+  return out;
 }
 
 // Would a wall in the patch's plane stand in the way of what was seen?
@@ -274,7 +301,11 @@ std::vector<Match> MatchSurfaces(const SGraph& map, const AGraph& plan, const Ei
   for (size_t i = 0; i < patches.size(); ++i) {
     if (assigned[i].empty()) continue;
     const Candidate& c = assigned[i].front();
-    matches.push_back({patches[i].map_surface, c.surface, RoomId(), c.offset_m, c.yaw_rad});
+    const Surface& surface = plan.surfaces[c.surface.index()];
+    const MapSurface& seen = map.surfaces[patches[i].map_surface];
+    std::vector<uint32_t> mistaken = SeenInOpenings(map, seen, surface, openings[surface.wall.index()], T_plan_map);
+    if (mistaken.size() == seen.observations.size()) continue;
+    matches.push_back({patches[i].map_surface, c.surface, RoomId(), c.offset_m, c.yaw_rad, std::move(mistaken)});
   }
   std::sort(matches.begin(), matches.end(), [](const Match& a, const Match& b) { return a.map_surface < b.map_surface; });
   return matches;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,10 @@ struct Match {
   SurfaceId plan_surface;    // AGraph::surfaces; none for floors and ceilings
   RoomId room;               // whose floor or ceiling; none for walls
   double offset_m = 0, yaw_rad = 0;  // as measured under the given transform, at the middle of the overlap (floors, ceilings: along +z)
+  // Of MapSurface::observations, ascending: seen in the wall's openings. They got into the patch because they line up with it, and say nothing
+  // of the wall.
+  std::vector<uint32_t> mistaken;
+  [[nodiscard]] bool IsMistaken(size_t observation) const { return std::binary_search(mistaken.begin(), mistaken.end(), observation); }
 };
 
 // One-to-one where the plan has one candidate, many map patches to one plan surface where the map has the wall in pieces; never one patch to

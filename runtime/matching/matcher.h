@@ -36,7 +36,7 @@ struct MatcherOptions {
   // own log-likelihood unless nearly all rays end where they should.
   double vouch_explained_ratio = 0.65;
   double vouch_lead_nats = 30;
-  double vouch_lead_ratio = 0.4;
+  double vouch_lead_ratio = 0.3;
   double vouch_nearly_all_ratio = 0.9;
   int vouch_min_planes = 4;                   // one less where nearly all rays end where they should and few go through walls
   double vouch_max_through_ratio = 0.06;

@@ -31,7 +31,11 @@ struct Scene {
     s.z_max_m = z_max_m;
     s.area_m2 = (end - start).norm() * (z_max_m - z_min_m);
     test::FillCells(s);
-    s.observations.resize(1);
+    Observation o;  // centred on the patch
+    for (double z_m : {z_min_m, z_max_m}) {
+      for (const Eigen::Vector2d& at : {start, end}) o.stats.Add({at.x(), at.y(), z_m});
+    }
+    s.observations.push_back(o);
     map.surfaces.push_back(s);
     return s.id;
   }
@@ -181,6 +185,31 @@ TEST(MatchSurfaces, PanesJoinedAcrossAStripOfWallAreNoWall) {
   Scene displaced;  // the whole wall 0.1 m further out
   const uint32_t wall = displaced.Add({9.1, 0.2}, {9.1, 5.8}, 0.2, 2.4);
   EXPECT_EQ(displaced.Of(house, wall), SurfaceId(9));
+}
+
+// A pane that the map has joined to the wall far beside it, because a plane can lean across both.
+TEST(MatchSurfaces, ViewsOfAPaneInAPatchOfWallAreMistaken) {
+  AGraph house = test::MakeHouse();
+  Window w;  // in C's east wall
+  w.wall = WallId(1);
+  w.position = {9.15, 1.2, 0.4};
+  w.width_m = 1.2;
+  w.height_m = 2.0;
+  house.windows.push_back(w);
+  Scene scene;
+  const uint32_t patch = scene.Add({9.05, 0.6}, {8.98, 5.8}, 0.4, 2.4);  // its own view is centred beside the window
+  Observation pane;
+  for (double y_m : {0.8, 1.6}) {
+    for (double z_m : {0.6, 2.0}) pane.stats.Add({9.1, y_m, z_m});
+  }
+  scene.map.surfaces[patch].observations.push_back(pane);
+  const auto matches = MatchSurfaces(scene.map, house, Eigen::Isometry3d::Identity(), {});
+  ASSERT_EQ(matches.size(), 1u);
+  EXPECT_EQ(matches[0].plan_surface, SurfaceId(9));
+  EXPECT_FALSE(matches[0].IsMistaken(0));
+  EXPECT_TRUE(matches[0].IsMistaken(1));
+  scene.map.surfaces[patch].observations.erase(scene.map.surfaces[patch].observations.begin());
+  EXPECT_FALSE(scene.Of(house, patch).valid());  // nothing of the wall is left
 }
 
 TEST(MatchSurfaces, SmallLowNicheBehindAWallIsNotTheWall) {

@@ -44,11 +44,18 @@ struct Divider {
   std::vector<Ring> rings;    // as Footprint::rings
 };
 
+// Closes a gap between two outlines that nobody can pass: where it separates rooms, its line is one of both.
+struct Bridge {
+  Eigen::Vector2d from = Eigen::Vector2d::Zero(), to = Eigen::Vector2d::Zero();
+  uint32_t footprint_a = kNoIndex, footprint_b = kNoIndex;  // may be one: parts of a wall
+};
+
 // One edge of a face's boundary, the face on its left.
 struct BoundaryEdge {
   uint32_t from = 0, to = 0;         // vertices
   uint32_t face = kNoIndex;          // the face on the other side
   std::vector<uint32_t> footprints;  // whose outline runs here, ascending; none: two spaces of an open plan meet
+  uint32_t bridge = kNoIndex;        // in Floor::bridges, where nothing else runs here; `footprints` are then the two that it joins
 };
 
 struct FloorFace {
@@ -65,6 +72,7 @@ struct Floor {
   std::vector<double> cut_heights_m;  // where the walls are cut, ascending: the section height, and lower where knee walls bound rooms
   std::vector<Footprint> footprints;
   std::vector<Divider> dividers;
+  std::vector<Bridge> bridges;
   std::vector<Eigen::Vector2d> vertices;
   std::vector<FloorFace> faces;  // the unbounded one first
 };

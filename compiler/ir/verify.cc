@@ -66,6 +66,7 @@ void VerifyBoundary(Faults& faults, const Floor& floor, size_t face, const std::
     faults.Require(edge.to == ring[(k + 1) % ring.size()].from, "face {}: its boundary is not closed", face);
     faults.Require(edge.face < floor.faces.size(), "face {}: neighbour {} of {}", face, edge.face, floor.faces.size());
     faults.Require(!edge.footprints.empty() || !floor.dividers.empty(), "face {}: an edge belongs to no footprint", face);
+    faults.Require(InRangeOrNone(edge.bridge, floor.bridges.size()), "face {}: bridge {} of {}", face, edge.bridge, floor.bridges.size());
     for (uint32_t f : edge.footprints)
       faults.Require(f < floor.footprints.size(), "face {}: footprint {} of {}", face, f, floor.footprints.size());
   }
@@ -86,6 +87,10 @@ void VerifyFloor(Faults& faults, const FloorIr& ir, const PlanIr& plan, const Fl
   for (size_t i = 0; i < floor.dividers.size(); ++i) {
     faults.Require(floor.dividers[i].space < plan.spaces.size(), "divider {}: space {} of {}", i, floor.dividers[i].space,
                    plan.spaces.size());
+  }
+  for (size_t i = 0; i < floor.bridges.size(); ++i) {
+    const Bridge& b = floor.bridges[i];
+    faults.Require(b.footprint_a < floor.footprints.size() && b.footprint_b < floor.footprints.size(), "bridge {}: no such footprint", i);
   }
   faults.Require(!floor.cut_heights_m.empty() && std::is_sorted(floor.cut_heights_m.begin(), floor.cut_heights_m.end()),
                  "the heights of the cuts are not sorted");

@@ -20,6 +20,7 @@ constexpr double kEyes_m = 1.0;            // spaces and doors are looked at thi
 constexpr double kAtWall_m = 0.35;         // spaces are drawn to finished faces, to structural faces or to the middle of walls
 constexpr double kEnclosedShare = 0.95;    // of the outline
 constexpr double kReach_m = 1.0;           // from the middle of a door to the space behind its wall
+constexpr double kMinCell_m2 = 0.5;         // smaller ones are cavities and the space between a leaf and its frame
 constexpr double kElongated = 2;           // sides of a rectangle whose longer one is a direction
 
 bool Blocks(const PlanElement& e) {
@@ -156,7 +157,7 @@ DoorSide Truth::SideOf(const TrueDoor& door, const Eigen::Vector2d& along, const
     for (double t = kStep_m; t <= kReach_m; t += kStep_m) {
       const Eigen::Vector2d p = from + t * away, q = p + kFurther_m * away;
       const int32_t at = raster.At(p);
-      if (at == Raster::kSolid) continue;
+      if (at == Raster::kSolid || (at != Raster::kOutside && raster.area_m2(at) < kMinCell_m2)) continue;
       for (size_t s = 0; s < spaces_.size(); ++s) {
         const Eigen::AlignedBox3d box = compiler::Bounds(plan_.spaces[s].body);
         if (!box.isEmpty() && box.min().z() < door.z_m && door.z_m < box.max().z() && Inside(spaces_[s].outline, q))

@@ -27,12 +27,12 @@ struct Level {
   double top_z_m = 0;      // elevation of the next level; of the highest wall on the last one
 };
 
-enum class FootprintKind : uint8_t { kWall, kColumn };
+enum class FootprintKind : uint8_t { kWall, kColumn, kFilling };  // filling: a door or window that stands in no wall but between walls
 
 // What a solid leaves in the map of a level.
 struct Footprint {
   FootprintKind kind = FootprintKind::kWall;
-  uint32_t wall = kNoIndex;     // in FloorIr::walls; none for columns
+  uint32_t wall = kNoIndex;     // in FloorIr::walls; none for columns and fillings
   uint32_t element = kNoIndex;  // in PlanIr::elements (of a wall: its first)
   bool bounds_rooms = true;     // part of the planar map. False for what a person sees or walks over or under: parapets, hanging walls
   std::vector<Ring> rings;  // closed; outer ones counter-clockwise, holes clockwise; may overlap each other (winding number != 0 is inside)

@@ -79,8 +79,7 @@ void VerifyFloor(Faults& faults, const FloorIr& ir, const PlanIr& plan, const Fl
   for (size_t i = 0; i < floor.footprints.size(); ++i) {
     const Footprint& f = floor.footprints[i];
     faults.Require(f.element < plan.elements.size(), "footprint {}: element {} of {}", i, f.element, plan.elements.size());
-    faults.Require((f.kind == FootprintKind::kColumn) == (f.wall == kNoIndex), "footprint {}: a wall without index or a column with one",
-                   i);
+    faults.Require((f.kind == FootprintKind::kWall) == (f.wall != kNoIndex), "footprint {}: a wall without index or a column with one", i);
     faults.Require(InRangeOrNone(f.wall, ir.walls.size()), "footprint {}: wall {} of {}", i, f.wall, ir.walls.size());
     for (const Ring& ring : f.rings) faults.Require(ring.size() >= 3, "footprint {}: a ring has {} points", i, ring.size());
   }

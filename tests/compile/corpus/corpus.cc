@@ -16,6 +16,7 @@
 
 #include "compiler/frontends/ifc/ifc_frontend.h"
 #include "compiler/passes/build_agraph.h"
+#include "compiler/passes/polygon.h"
 #include "compiler/source/source.h"
 #include "compiler/validate.h"
 #include "tests/compile/corpus/truth.h"
@@ -90,18 +91,25 @@ void ScoreSpaces(const Truth& truth, const AGraph& graph, PlanScore& score) {
   }
 }
 
-// Whether the doorway's room on this side is the one that holds the point.
-bool Fits(const AGraph& graph, RoomId id, const DoorSide& side) {
+// Whether the doorway's room on this side is the one that holds the point, or, where none does, begins behind the next wall: linings,
+// low walls and parapets stand within spaces.
+bool Fits(const AGraph& graph, RoomId id, const DoorSide& side, double z_m) {
+  constexpr double kLining_m = 0.35;
   if (side.kind == DoorSide::Kind::kBlocked) return false;
-  if (side.kind == DoorSide::Kind::kOutside) return !id.valid();
-  return id.valid() && Inside(RingsOf(graph.rooms[id.index()]), side.point);
+  if (!id.valid()) return side.kind == DoorSide::Kind::kOutside || side.open_air;
+  if (side.kind == DoorSide::Kind::kOutside) return false;
+  const auto holds = [&](const Room& r) { return r.floor_z_m < z_m && z_m < r.ceiling_z_m && Inside(RingsOf(r), side.point); };
+  if (Inside(RingsOf(graph.rooms[id.index()]), side.point)) return true;
+  if (std::any_of(graph.rooms.begin(), graph.rooms.end(), holds)) return false;
+  return compiler::DistanceToRings(side.point, RingsOf(graph.rooms[id.index()])) < kLining_m;
 }
 
 bool IsRight(const AGraph& graph, const Doorway& d, const TrueDoor& truth) {
   const DoorSide &a = truth.sides[0], &b = truth.sides[1];
   const bool differ = a.kind != b.kind || a.id != b.id;
   if (differ && d.room_a == d.room_b) return false;
-  return (Fits(graph, d.room_a, a) && Fits(graph, d.room_b, b)) || (Fits(graph, d.room_a, b) && Fits(graph, d.room_b, a));
+  const auto fits = [&](RoomId id, const DoorSide& side) { return Fits(graph, id, side, truth.z_m); };
+  return (fits(d.room_a, a) && fits(d.room_b, b)) || (fits(d.room_a, b) && fits(d.room_b, a));
 }
 
 void ScoreDoors(const Truth& truth, const AGraph& graph, PlanScore& score) {

@@ -161,10 +161,10 @@ DoorSide Truth::SideOf(const TrueDoor& door, const Eigen::Vector2d& along, const
       for (size_t s = 0; s < spaces_.size(); ++s) {
         const Eigen::AlignedBox3d box = compiler::Bounds(plan_.spaces[s].body);
         if (!box.isEmpty() && box.min().z() < door.z_m && door.z_m < box.max().z() && Inside(spaces_[s].outline, q))
-          return {DoorSide::Kind::kSpace, q, static_cast<int32_t>(s)};
+          return {DoorSide::Kind::kSpace, q, static_cast<int32_t>(s), !spaces_[s].enclosed && at == Raster::kOutside};
       }
       if (cell.kind == DoorSide::Kind::kBlocked)
-        cell = {at == Raster::kOutside ? DoorSide::Kind::kOutside : DoorSide::Kind::kCell, q, at};
+        cell = {at == Raster::kOutside ? DoorSide::Kind::kOutside : DoorSide::Kind::kCell, q, at, false};
     }
   }
   return cell;

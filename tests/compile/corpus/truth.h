@@ -24,6 +24,7 @@ struct DoorSide {
   enum class Kind { kSpace, kCell, kOutside, kBlocked } kind = Kind::kBlocked;
   Eigen::Vector2d point = Eigen::Vector2d::Zero();
   int32_t id = -1;  // of the space or the cell
+  bool open_air = false;  // a space that walls do not enclose, as a terrace: a room or the outside
 };
 
 struct TrueDoor {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <numeric>
@@ -33,12 +34,6 @@ std::vector<Corner> CornersOf(const Floor& floor) {
   return out;
 }
 
-Eigen::Vector2d NearestOnEdge(const Eigen::Vector2d& p, const Corner& edge) {
-  const Eigen::Vector2d along = edge.next - edge.at;
-  const double length2 = along.squaredNorm();
-  return edge.at + (length2 > 0 ? std::clamp((p - edge.at).dot(along) / length2, 0.0, 1.0) : 0.0) * along;
-}
-
 // What covers a point.
 class Cover {
  public:
@@ -47,12 +42,17 @@ class Cover {
       if (f.bounds_rooms) entries_.push_back({&f.rings, BoundingBox(f.rings)});
     }
   }
+  bool IsFree(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
+    const std::array<double, 3> places = {0.05, 0.5, 0.95};
+    return std::none_of(places.begin(), places.end(), [&](double t) { return Holds(from + t * (to - from)); });
+  }
+
+ private:
   bool Holds(const Eigen::Vector2d& p) const {
     return std::any_of(entries_.begin(), entries_.end(),
                        [&](const Entry& e) { return e.box.contains(p) && WindingNumber(*e.rings, p) != 0; });
   }
 
- private:
   struct Entry {
     const std::vector<Ring>* rings;
     Eigen::AlignedBox2d box;
@@ -136,7 +136,7 @@ std::vector<Bridge> FindBridges(const Floor& floor, double min_gap_m, double max
     auto it = std::lower_bound(corners.begin(), corners.end(), lo - max_gap_m, [](const Corner& c, double x) { return c.at.x() < x; });
     for (; it != corners.end() && it->at.x() <= hi + max_gap_m; ++it) {
       if (it->ring == edge.ring) continue;
-      const Eigen::Vector2d q = NearestOnEdge(it->at, edge);
+      const Eigen::Vector2d q = NearestOnSegment(it->at, edge.at, edge.next);
       const double gap = (q - it->at).norm();
       if (gap > max_gap_m) continue;
       const auto [known, fresh] = nearest.try_emplace({static_cast<uint32_t>(it - corners.begin()), edge.ring});
@@ -147,7 +147,7 @@ std::vector<Bridge> FindBridges(const Floor& floor, double min_gap_m, double max
   std::vector<Bridge> out;
   for (const auto& [key, entry] : nearest) {
     const Bridge& b = entry.second;
-    if (entry.first > min_gap_m && !cover.Holds(0.5 * (b.from + b.to))) out.push_back(b);
+    if (entry.first > min_gap_m && cover.IsFree(b.from, b.to)) out.push_back(b);
   }
   return out;
 }

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "compiler/ir/plan_ir.h"
@@ -42,6 +43,7 @@ struct Footprint {
 struct Divider {
   uint32_t space = kNoIndex;  // in PlanIr::spaces
   std::vector<Ring> rings;    // as Footprint::rings
+  std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> spokes;  // from corners to the nearest wall: they cut up the strip along the walls
 };
 
 // Closes a gap between two outlines that nobody can pass: where it separates rooms, its line is one of both.

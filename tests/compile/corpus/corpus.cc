@@ -1,8 +1,8 @@
-// corpus PLAN... [--facts facts.json] [--min-ratio 0.95]: compiles plans and prints what was found of what is there, every miss by name.
+// corpus PLAN|FOLDER... [--facts facts.json] [--min-ratio 0.95]: compiles plans and prints what was found of what is there, every miss by name.
 //
 // Spaces count as matched from an intersection over union of 0.8 with a room; only those that walls enclose count towards the ratio. Doors
 // count as right if their doorway joins the rooms that hold the points on its two sides (truth.h). Exit status 1 if the ratio of either over
-// all plans stays below --min-ratio.
+// all plans stays below --min-ratio, 77 if there is no plan.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -198,7 +198,31 @@ void Print(const std::vector<PlanScore>& scores, const PlanScore& sum) {
              100 * sum.joined.ratio());
 }
 
-int Run(const std::vector<std::string>& paths, const std::string& facts_path, double min_ratio) {
+// Plans as they are, folders as the plans in them; what is not there is left out.
+std::vector<std::string> PlansOf(const std::vector<std::string>& paths) {
+  std::vector<std::string> out;
+  for (const std::string& path : paths) {
+    if (!std::filesystem::is_directory(path)) {
+      if (std::filesystem::exists(path)) out.push_back(path);
+      continue;
+    }
+    std::vector<std::string> found;
+    for (const auto& entry : std::filesystem::directory_iterator(path)) {
+      if (entry.path().extension() == ".ifc") found.push_back(entry.path());
+    }
+    std::sort(found.begin(), found.end());
+    out.insert(out.end(), found.begin(), found.end());
+  }
+  return out;
+}
+
+int Run(const std::vector<std::string>& given, const std::string& facts_path, double min_ratio) {
+  constexpr int kSkipped = 77;
+  const std::vector<std::string> paths = PlansOf(given);
+  if (paths.empty()) {
+    fmt::print("no plans there: nothing to compare\n");
+    return kSkipped;
+  }
   nlohmann::json facts = nlohmann::json::array();
   if (std::ifstream file(facts_path); file) facts = nlohmann::json::parse(file);
   std::vector<PlanScore> scores;

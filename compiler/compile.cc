@@ -23,6 +23,8 @@ PassOptions PassOptionsFrom(const CompileOptions& options) {
   out.section_height_m = options.section_height_m;
   out.verify = options.verify_stages;
   out.planar_map.snap_radius_m = options.snap_radius_m;
+  out.bridges.max_gap_m = options.max_gap_m;
+  out.division.divide = options.divide_open_plans;
   out.rooms.min_area_m2 = options.min_room_area_m2;
   return out;
 }
@@ -31,6 +33,8 @@ PassOptions PassOptionsFrom(const CompileOptions& options) {
 std::vector<Option> Recorded(const CompileOptions& options) {
   return {{"section_height_m", fmt::format("{}", options.section_height_m)},
           {"snap_radius_m", fmt::format("{}", options.snap_radius_m)},
+          {"max_gap_m", fmt::format("{}", options.max_gap_m)},
+          {"divide_open_plans", options.divide_open_plans ? "true" : "false"},
           {"min_room_area_m2", fmt::format("{}", options.min_room_area_m2)}};
 }
 
@@ -72,6 +76,7 @@ std::string CompileOptions::Check() const {
     return fmt::format("CompileOptions.section_height_m = {}; must be in (0, 10)", section_height_m);
   if (!(snap_radius_m > 0 && snap_radius_m <= 0.05))
     return fmt::format("CompileOptions.snap_radius_m = {}; must be in (0, 0.05]", snap_radius_m);
+  if (!(max_gap_m >= 0 && max_gap_m <= 0.5)) return fmt::format("CompileOptions.max_gap_m = {}; must be in [0, 0.5]", max_gap_m);
   if (!(min_room_area_m2 >= 0)) return fmt::format("CompileOptions.min_room_area_m2 = {}; must not be negative", min_room_area_m2);
   return {};
 }

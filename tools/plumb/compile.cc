@@ -71,6 +71,8 @@ void AddCompile(CLI::App& app, Session& session) {
   sub->add_option("--section-height", flags->options.section_height_m, "height above the storey's zero at which walls are cut, m");
   sub->add_option("--snap-radius", flags->options.snap_radius_m, "corners of walls closer than this become one, m");
   sub->add_option("--min-room-area", flags->options.min_room_area_m2, "smaller faces between walls are shafts, not rooms, m2");
+  sub->add_option("--max-gap", flags->options.max_gap_m, "walls closer than this are taken to meet where that keeps two rooms apart, m");
+  sub->add_option("--divide-open-plans", flags->options.divide_open_plans, "along the plan's spaces where no walls do; else one room");
   sub->callback([flags, &session] { session.status = RunCompile(*flags, session); });
 }
 

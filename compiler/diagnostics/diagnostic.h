@@ -1,9 +1,12 @@
 // Diagnostics: what the compiler has to say about its input. Every kind has a stable code, declared in diagnostic_kinds.def.
+// How they are written down: report.h. What a kind means at length: explanation.h.
 #pragma once
 
 #include <cstdint>
-#include <map>
+#include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "schema/agraph.h"
@@ -16,6 +19,7 @@ struct SourceLocation {
   uint64_t step_id = 0;   // 123 for #123 (STEP)
   std::string guid;       // IfcGloballyUniqueId, DXF handle, mesh object name
   std::string type;       // IfcWallStandardCase, LWPOLYLINE, ...
+  uint32_t column = 0;    // 1-based byte in the line
 
   [[nodiscard]] std::string ToString() const;  // "#123 IfcDoor 2O2Fr$t4X7Zf8NOew3FLOH (line 991)"
 };
@@ -54,9 +58,18 @@ class DiagnosticSink {
 [[nodiscard]] std::string_view RuleOf(DiagnosticKind kind);     // the rule that is broken, one sentence
 [[nodiscard]] Severity SeverityOf(DiagnosticKind kind);
 
-// One line each, then a closing count: `plan.ifc:991: warning: door `#123` has no host wall ... [PL2110]`. Sorted by line, then code.
-// At most `max_per_kind` of a kind, then "and 41 more".
+[[nodiscard]] const char* SeverityName(Severity severity);      // "note", "remark", "warning", "error"
+
+// For people: `plan.ifc:991:1: warning: no doorway leads into ... [PL7103]`, below it the place as the source names it and the hint. By line,
+// then code; at most `max_per_kind` of a kind, then "and 41 more"; at the end how many errors and warnings there are.
 [[nodiscard]] std::string DiagnosticsToText(const std::vector<Diagnostic>& diagnostics, const std::string& source_path, size_t max_per_kind = 3);
-[[nodiscard]] std::string DiagnosticsToJson(const std::vector<Diagnostic>& diagnostics, const std::string& source_path);
+
+// In the order in which they are written down: by place in the file, then by code; equal ones keep the order of emission.
+[[nodiscard]] std::vector<const Diagnostic*> SortedDiagnostics(const std::vector<Diagnostic>& diagnostics);
+
+// Every kind, sorted by code.
+[[nodiscard]] std::span<const DiagnosticKind> AllDiagnosticKinds();
+// "PL2103" or "WallWithoutBody", in any case; none: there is no such kind.
+[[nodiscard]] std::optional<DiagnosticKind> FindDiagnosticKind(std::string_view code_or_name);
 
 }  // namespace plumb::compiler

@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "compiler/diagnostics/diagnostic.h"
+#include "compiler/validate.h"
 #include "schema/agraph_writer.h"
 #include "schema/files.h"
 #include "tools/plumb/command.h"
@@ -47,7 +47,8 @@ Status RunCompile(const CompileFlags& flags, Session& session) {
   const auto& diagnostics = result.diagnostics.all();
   Tell(flags, diagnostics, session.console);
   if (!flags.diagnostics_json.empty()) {
-    const auto written = WriteFileAtomically(flags.diagnostics_json, std::string_view(compiler::DiagnosticsToJson(diagnostics, flags.plan)));
+    const std::string json = compiler::ReportToString(compiler::ReportOf(flags.plan, result), compiler::ReportFormat::kJson);
+    const auto written = WriteFileAtomically(flags.diagnostics_json, std::string_view(json));
     if (!written) return session.Fail(written.error());
   }
   if (result.has_internal_error()) return session.Fail({ErrorCode::kInternal, fmt::format("the compiler failed on `{}`; see above", flags.plan)});
@@ -59,6 +60,12 @@ Status RunCompile(const CompileFlags& flags, Session& session) {
 
 }  // namespace
 
+void AddCompileOptions(CLI::App& subcommand, compiler::CompileOptions& options) {
+  subcommand.add_option("--section-height", options.section_height_m, "height above the storey's zero at which walls are cut, m");
+  subcommand.add_option("--snap-radius", options.snap_radius_m, "corners of walls closer than this become one, m");
+  subcommand.add_option("--min-room-area", options.min_room_area_m2, "smaller faces between walls are shafts, not rooms, m2");
+}
+
 void AddCompile(CLI::App& app, Session& session) {
   auto flags = std::make_shared<CompileFlags>();
   CLI::App* sub = AddSubcommand(app, session, "compile", "Turn a floor plan into an A-Graph: rooms, wall surfaces, doorways, triangles",
@@ -68,9 +75,7 @@ void AddCompile(CLI::App& app, Session& session) {
   sub->add_option("-o,--output", flags->output, "the A-Graph to write")->required()->type_name("FILE.agraph");
   sub->add_option("--diagnostics-json", flags->diagnostics_json, "write what the compiler has to say about the plan as JSON")->type_name("FILE");
   sub->add_option("--max-per-kind", flags->max_per_kind, "print at most this many diagnostics of a kind");
-  sub->add_option("--section-height", flags->options.section_height_m, "height above the storey's zero at which walls are cut, m");
-  sub->add_option("--snap-radius", flags->options.snap_radius_m, "corners of walls closer than this become one, m");
-  sub->add_option("--min-room-area", flags->options.min_room_area_m2, "smaller faces between walls are shafts, not rooms, m2");
+  AddCompileOptions(*sub, flags->options);
   sub->callback([flags, &session] { session.status = RunCompile(*flags, session); });
 }
 

@@ -62,7 +62,6 @@ class Frontend {
                   fmt::format("the plan lies around ({}, {}, {}) m; it is moved near zero inside and written where it was",
                               plan_.origin.x(), plan_.origin.y(), plan_.origin.z()));
     }
-    if (plan_.storeys.empty()) MakeStorey();
     return std::move(plan_);
   }
 
@@ -148,10 +147,6 @@ class Frontend {
       if (IsWallLike(product.kind)) {
         DescribeWall(product, element);
         CheckWall(product);
-        if (element.storey == kNoIndex) {
-          model_.Emit(DiagnosticKind::kElementWithoutStorey, product.instance,
-                      fmt::format("{} is contained in no storey", model_.Label(product.instance)));
-        }
       }
       if (HasUncut(product.kind)) {
         for (const ShapePart& part : product.parts) AppendSolid(part.solid, element.uncut);
@@ -259,22 +254,6 @@ class Frontend {
       for (const ShapePart& part : products_.PlacedBody(instance)) AppendSolid(part.solid, space.body);
       plan_.spaces.push_back(std::move(space));
     }
-  }
-
-  void MakeStorey() {
-    double low_m = 0;
-    bool first = true;
-    for (const PlanElement& element : plan_.elements) {
-      if (!IsWallLike(element.kind) || element.body.empty()) continue;
-      const double z = Bounds(element.body).min().z();
-      low_m = first ? z : std::min(low_m, z);
-      first = false;
-    }
-    model_.Emit(DiagnosticKind::kNoStorey, kNone,
-                fmt::format("the file has no IfcBuildingStorey; one storey at {} m, under the lowest wall, holds everything", low_m));
-    plan_.storeys.push_back({{}, "storey", {}, low_m});
-    for (PlanElement& element : plan_.elements) element.storey = 0;
-    for (PlanSpace& space : plan_.spaces) space.storey = 0;
   }
 
   const IfcModel& model_;

@@ -16,7 +16,7 @@ namespace {
 constexpr double kOnBoundary_m = 0.005;  // rounding and snapping of the planar map
 constexpr double kProbe_m = 0.01;        // step off a surface to see what is before it
 constexpr double kAreaShare = 0.01;      // by which a stated area may differ, and two rooms overlap
-constexpr double kParallel = 0.05;       // sine of the angle below which walls do not fix a position along them
+constexpr double kLeastAcross_m = 1;     // of wall surfaces across the others of a storey
 constexpr double kOpeningSlack_m = 0.3;  // of an opening's middle to its wall, beyond the thickness
 
 std::vector<Ring> RingsOf(const Room& room) {
@@ -66,18 +66,24 @@ class Validator {
   }
   std::string NameOf(size_t room) const { return fmt::format("room {} `{}`", room, graph_.rooms[room].name); }
 
-  // Curved walls face every way.
+  // How much wall there is across the longest one. Curved walls face every way.
   void CheckDirections(StoreyId storey) {
-    const Surface* first = nullptr;
+    const Surface* longest = nullptr;
     for (const Surface& s : graph_.surfaces) {
       if (s.storey != storey) continue;
-      if (!first) first = &s;
-      if (s.arc || std::abs(Cross(first->normal.head<2>(), s.normal.head<2>())) > kParallel) return;
+      if (s.arc) return;
+      if (!longest || s.length_m() > longest->length_m()) longest = &s;
     }
-    if (!first) return;
+    if (!longest) return;
+    double across_m = 0;
+    for (const Surface& s : graph_.surfaces) {
+      if (s.storey == storey) across_m += s.length_m() * std::abs(Cross(longest->normal.head<2>(), s.normal.head<2>()));
+    }
+    if (across_m >= kLeastAcross_m) return;
     const Storey& where = graph_.storeys[storey.index()];
     Emit(DiagnosticKind::kWallsInOneDirection, where.guid,
-         fmt::format("all wall surfaces of storey `{}` are parallel: a robot is localized across them, but not along them", where.name));
+         fmt::format("the wall surfaces of storey `{}` run in one direction, with {:.2f} m across it; at least {:.2f} m fix a position along them",
+                     where.name, across_m, kLeastAcross_m));
   }
 
   void CheckRooms() {

@@ -18,7 +18,7 @@
 namespace plumb {
 
 inline constexpr uint32_t kSchemaMajor = 1;
-inline constexpr uint32_t kSchemaMinor = 0;
+inline constexpr uint32_t kSchemaMinor = 1;
 
 // As in agraph.fbs, same order.
 enum class ElementKind : uint8_t {
@@ -161,6 +161,7 @@ struct AGraph {
   std::string tool_version, source_path, source_format, source_sha256;
   std::vector<Option> options;
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  std::optional<double> true_north_rad;  // direction of true north in the plan frame, counter-clockwise from +x; none: not known
 
   std::vector<Storey> storeys;
   std::vector<Wall> walls;

@@ -3,6 +3,7 @@
 #include <flatbuffers/flatbuffers.h>
 
 #include "schema/agraph_generated.h"
+#include "schema/checksum.h"
 #include "schema/files.h"
 
 namespace plumb {
@@ -186,11 +187,17 @@ std::vector<uint8_t> WriteAGraph(const AGraph& g) {
   const auto diagnostics = PackDiagnostics(b, g);
   const auto open_boundaries = PackOpenBoundaries(b, g);
   const fb::Vec3 origin = Pack(g.origin);
+  const auto true_north = g.true_north_rad ? flatbuffers::Optional<double>(*g.true_north_rad) : flatbuffers::nullopt;
+  constexpr uint64_t kNotYet = 1;  // 0 would be left out
   b.Finish(fb::CreateAGraph(b, kSchemaMajor, kSchemaMinor, tool_version, source_path, source_format, source_sha256, options, &origin, storeys,
                             walls, surfaces, rooms, doorways, windows, columns, factors, elements, mesh, aliases, diagnostics,
-                            open_boundaries),
+                            open_boundaries, true_north, kNotYet),
            fb::AGraphIdentifier());
-  return {b.GetBufferPointer(), b.GetBufferPointer() + b.GetSize()};
+  std::vector<uint8_t> bytes(b.GetBufferPointer(), b.GetBufferPointer() + b.GetSize());
+  const uint8_t* field = flatbuffers::GetRoot<flatbuffers::Table>(bytes.data())->GetAddressOf(fb::AGraph::VT_CHECKSUM);
+  const auto hole = static_cast<size_t>(field - bytes.data());
+  flatbuffers::WriteScalar(bytes.data() + hole, ChecksumAround(bytes, hole));
+  return bytes;
 }
 
 Expected<void> WriteAGraphFile(const AGraph& graph, const std::string& path) { return WriteFileAtomically(path, WriteAGraph(graph)); }

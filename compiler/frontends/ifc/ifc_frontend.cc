@@ -53,6 +53,7 @@ class Frontend {
         openings_(model, placements_, relations_, products_, options) {}
 
   PlanIr Run() {
+    ReadNorth();
     ReadStoreys();
     MakeElements();
     MakeOpenings();
@@ -67,6 +68,17 @@ class Frontend {
 
  private:
   std::string TextOf(uint32_t instance, size_t attribute_index) const { return model_.Get(instance)[attribute_index].Text(); }
+
+  // Of the first context that states it; without, the plan's y axis may or may not be north.
+  void ReadNorth() {
+    for (const uint32_t context : model_.InstancesOf(IfcType::kIfcGeometricRepresentationContext)) {
+      const StepValue north = model_.Get(context)[attribute::kContextTrueNorth];
+      if (!model_.Follow(north)) continue;
+      const Eigen::Vector3d direction = placements_.Direction(north, Eigen::Vector3d::UnitY());
+      plan_.true_north_rad = std::atan2(direction.y(), direction.x());
+      return;
+    }
+  }
 
   void ReadStoreys() {
     struct Entry {

@@ -90,13 +90,11 @@ TEST(AGraphIo, SurvivesEveryTruncation) {
 TEST(AGraphIo, SurvivesFlippedBits) {
   const std::vector<uint8_t> bytes = WriteAGraph(test::MakeHouse());
   std::mt19937 random(7);
-  int refused = 0;
   for (int round = 0; round < 2000; ++round) {
     std::vector<uint8_t> damaged = bytes;
-    for (int k = 0; k < 3; ++k) damaged[random() % damaged.size()] ^= static_cast<uint8_t>(1u << (random() % 8));
-    refused += !ReadAGraph(damaged);  // may load: a changed coordinate is a valid coordinate
+    for (int k = 0; k <= round % 3; ++k) damaged[random() % damaged.size()] ^= static_cast<uint8_t>(1u << (random() % 8));
+    EXPECT_TRUE(damaged == bytes || !ReadAGraph(damaged)) << round;
   }
-  EXPECT_GT(refused, 100);
 }
 
 TEST(AGraphIo, WritesTheSameBytesTwice) { EXPECT_EQ(WriteAGraph(test::MakeHouse()), WriteAGraph(test::MakeHouse())); }

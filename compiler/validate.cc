@@ -53,8 +53,9 @@ class Validator {
     CheckWalls();
     if (graph_.rooms.empty()) Emit(DiagnosticKind::kNoRooms, {}, "the plan has no room");
     if (graph_.mesh.triangles.empty()) Emit(DiagnosticKind::kNoTriangles, {}, "the plan has no triangle");
-    if (graph_.surfaces.empty()) Emit(DiagnosticKind::kNothingToSee, {}, "the plan has no wall surface");
-    for (size_t s = 0; s < graph_.storeys.size(); ++s) CheckDirections(StoreyId(s));
+    bool fixed_somewhere = false;
+    for (size_t s = 0; s < graph_.storeys.size(); ++s) fixed_somewhere |= FixesPosition(StoreyId(s));
+    if (!fixed_somewhere) Emit(DiagnosticKind::kNowhereToLocalize, {}, "no storey has wall surfaces in two directions: nothing fixes a robot's position");
     return sink_.all();
   }
 
@@ -66,24 +67,25 @@ class Validator {
   }
   std::string NameOf(size_t room) const { return fmt::format("room {} `{}`", room, graph_.rooms[room].name); }
 
-  // How much wall there is across the longest one. Curved walls face every way.
-  void CheckDirections(StoreyId storey) {
+  // True if there is enough wall across the longest one; false also where the storey has no wall. Curved walls face every way.
+  bool FixesPosition(StoreyId storey) {
     const Surface* longest = nullptr;
     for (const Surface& s : graph_.surfaces) {
       if (s.storey != storey) continue;
-      if (s.arc) return;
+      if (s.arc) return true;
       if (!longest || s.length_m() > longest->length_m()) longest = &s;
     }
-    if (!longest) return;
+    if (!longest) return false;
     double across_m = 0;
     for (const Surface& s : graph_.surfaces) {
       if (s.storey == storey) across_m += s.length_m() * std::abs(Cross(longest->normal.head<2>(), s.normal.head<2>()));
     }
-    if (across_m >= kLeastAcross_m) return;
+    if (across_m >= kLeastAcross_m) return true;
     const Storey& where = graph_.storeys[storey.index()];
     Emit(DiagnosticKind::kWallsInOneDirection, where.guid,
          fmt::format("the wall surfaces of storey `{}` run in one direction, with {:.2f} m across it; at least {:.2f} m fix a position along them",
                      where.name, across_m, kLeastAcross_m));
+    return false;
   }
 
   void CheckRooms() {
@@ -277,7 +279,8 @@ Report ReportOf(const std::string& path, const CompileResult& result, bool stric
     out.answer = fmt::format("no robot should localize in this before {} finding{} mended ({})", errors + warnings,
                              errors + warnings == 1 ? " is" : "s are", Contents(*result.graph));
   } else {
-    out.answer = fmt::format("a robot can localize in this ({})", Contents(*result.graph));
+    const size_t doubts = result.diagnostics.Count(Severity::kWarning);
+    out.answer = fmt::format("a robot can localize in this ({}){}", Contents(*result.graph), doubts == 0 ? "" : ", but see the warnings");
   }
   return out;
 }

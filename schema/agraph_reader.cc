@@ -184,6 +184,7 @@ class Checker {
     if (ring.size() < 3) Fault(what, i, fmt::format("a ring has {} points; it needs 3", ring.size()));
   }
   void CheckWallsAndSurfaces() {
+    if (graph_.true_north_rad) Finite("true north", 0, *graph_.true_north_rad);
     const size_t storeys = graph_.storeys.size();
     for (size_t i = 0; i < graph_.walls.size(); ++i) {
       const Wall& w = graph_.walls[i];

@@ -60,7 +60,6 @@ std::string SourceLocation::ToString() const {
   if (step_id != 0) add(fmt::format("#{}", step_id));
   add(type);
   add(guid);
-  if (line != 0) add(fmt::format("(line {})", line));
   return out;
 }
 
@@ -131,7 +130,8 @@ std::string DiagnosticsToText(const std::vector<Diagnostic>& diagnostics, const 
     if (at.line != 0) fmt::format_to(write, ":{}", at.line);
     if (at.column != 0) fmt::format_to(write, ":{}", at.column);
     fmt::format_to(write, ": {}: {} [{}]\n", SeverityName(d->severity), d->message, CodeOf(d->kind));
-    if (at.step_id != 0 || !at.guid.empty()) fmt::format_to(write, "    at: {}\n", at.ToString());
+    const bool is_named = (at.step_id == 0 && at.guid.empty()) || d->message.find(at.ToString()) != std::string::npos;
+    if (!is_named) fmt::format_to(write, "    at: {}\n", at.ToString());
     if (!d->hint.empty()) fmt::format_to(write, "    hint: {}\n", d->hint);
     if (count == max_per_kind && total[d->kind] > max_per_kind) {
       fmt::format_to(write, "    and {} more of {} {}\n", total[d->kind] - max_per_kind, CodeOf(d->kind), NameOf(d->kind));

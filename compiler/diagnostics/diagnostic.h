@@ -21,7 +21,7 @@ struct SourceLocation {
   std::string type;       // IfcWallStandardCase, LWPOLYLINE, ...
   uint32_t column = 0;    // 1-based byte in the line
 
-  [[nodiscard]] std::string ToString() const;  // "#123 IfcDoor 2O2Fr$t4X7Zf8NOew3FLOH (line 991)"
+  [[nodiscard]] std::string ToString() const;  // "#123 IfcDoor 2O2Fr$t4X7Zf8NOew3FLOH"
 };
 
 enum class DiagnosticKind : uint16_t {
@@ -60,7 +60,8 @@ class DiagnosticSink {
 
 [[nodiscard]] const char* SeverityName(Severity severity);      // "note", "remark", "warning", "error"
 
-// For people: `plan.ifc:991:1: warning: no doorway leads into ... [PL7103]`, below it the place as the source names it and the hint. By line,
+// For people: `plan.ifc:991:1: warning: no doorway leads into ... [PL7103]`, below it the place as the source names it, where the
+// message does not, and the hint. By line,
 // then code; at most `max_per_kind` of a kind, then "and 41 more"; at the end how many errors and warnings there are.
 [[nodiscard]] std::string DiagnosticsToText(const std::vector<Diagnostic>& diagnostics, const std::string& source_path, size_t max_per_kind = 3);
 

@@ -27,12 +27,14 @@ TEST(AGraphIo, KeepsArcsAliasesAndFactors) {
   house.surfaces[0].arc = Arc{{1, 2}, 3, 0.5, -1.25};
   house.aliases.push_back({3.14, {1, 2, 0}, 0.9, StoreyId(0), StoreyId(0)});
   house.factors.push_back({FactorKind::kRoomSurfaces, {0, 0, 1, 2, 3}});
+  house.true_north_rad = 0.0;
   house.open_boundaries.push_back({StoreyId(0), RoomId(1), RoomId(2), {1, 2}, {3, 4}});
   const Expected<AGraph> read = ReadAGraph(WriteAGraph(house));
   ASSERT_TRUE(read) << read.error().message;
   ASSERT_TRUE(read->surfaces[0].arc.has_value());
   EXPECT_EQ(read->surfaces[0].arc->sweep_rad, -1.25);
   EXPECT_EQ(read->aliases[0].overlap_ratio, 0.9);
+  EXPECT_EQ(read->true_north_rad, 0.0);
   EXPECT_EQ(read->factors[0].variables.size(), 5u);
   ASSERT_EQ(read->open_boundaries.size(), 1u);
   EXPECT_EQ(read->open_boundaries[0].room_b, RoomId(2));

@@ -33,10 +33,10 @@ TEST(PlanSheet, HasTitleScaleRoomsAndDimensions) {
 }
 
 TEST(PlanSheet, PrintsToScale) {
-  // 9.6 m at 1:50 are 192 mm; dimension lines and margins add 2 * (20 + 3) mm.
+  // 9.6 m at 1:50 are 192 mm; dimension lines, on the left only, add 20 mm, margins 2 * 3 mm.
   const std::string svg = FloorPlansToSvg(TwoStoreys(), {StoreyId(0)});
-  EXPECT_THAT(svg, HasSubstr("width=\"238.00mm\""));
-  EXPECT_THAT(svg, HasSubstr("viewBox=\"0 0 2380.0 "));
+  EXPECT_THAT(svg, HasSubstr("width=\"218.00mm\""));
+  EXPECT_THAT(svg, HasSubstr("viewBox=\"0 0 2180.0 "));
 }
 
 TEST(PlanSheet, NeedsNoCssVariables) {

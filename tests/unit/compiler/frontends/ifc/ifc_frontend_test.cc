@@ -231,6 +231,16 @@ TEST(ReadIfc, CurtainWallOfPartsIsOneElementWithItsGlassApart) {
   EXPECT_EQ(plan.elements[0].storey, kNoIndex);
 }
 
+TEST(ReadIfc, TrueNorthIsWhereTheContextSays) {
+  EXPECT_FALSE(Read(Scene()).plan->true_north_rad);
+  const Result result = Read(test::IfcText(R"(
+#10=IFCGEOMETRICREPRESENTATIONCONTEXT($,'Model',3,1.E-5,$,#11);
+#11=IFCDIRECTION((-1.,0.));
+)"));
+  ASSERT_TRUE(result.plan && result.plan->true_north_rad);
+  EXPECT_NEAR(*result.plan->true_north_rad, 3.14159265358979, 1e-12);
+}
+
 TEST(ReadIfc, PaneOfAWindowWithoutStylesIsGlass) {
   const Result result = Read(test::IfcText(R"(
 #10=IFCWINDOW('window0000000000000001',$,'F',$,$,$,#11,$,1.2,1.);

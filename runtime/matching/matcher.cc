@@ -41,6 +41,18 @@ class PoseSearch {
     return SortAndMerge(std::move(candidates));
   }
 
+  // Log-likelihood that the candidate's place gains at most in a plan of another scale.
+  [[nodiscard]] double ScaledLikelihood(const MapView& map, const Candidate& candidate) const {
+    double best = -1e300;
+    for (const double scale : {1 - options.accept_scale_error, 1 + options.accept_scale_error}) {
+      const MapView scaled = Scaled(map, scale);
+      PlanarPose pose = RefineOnWalls(plan, scaled, candidate.fit.pose).pose;
+      pose.z_m = candidate.fit.pose.z_m;
+      best = std::max(best, JudgeRays(plan, scaled, pose, options).log_likelihood);
+    }
+    return best;
+  }
+
   const PlanIndex plan;
   const MatcherOptions options;
 
@@ -136,6 +148,7 @@ std::string MatcherOptions::Check() const {
     return bad("accept_min_consistent_ratio", accept_min_consistent_ratio, "in [0, 1]");
   }
   if (!(vouch_explained_ratio > 0)) return bad("vouch_explained_ratio", vouch_explained_ratio, "positive");
+  if (!(vouch_sure_nats >= vouch_lead_nats)) return bad("vouch_sure_nats", vouch_sure_nats, "at least vouch_lead_nats");
   if (!(vouch_lead_ratio > 0)) return bad("vouch_lead_ratio", vouch_lead_ratio, "positive");
   if (!(vouch_nearly_all_ratio > 0)) return bad("vouch_nearly_all_ratio", vouch_nearly_all_ratio, "positive");
   if (!(vouch_lead_nats > 0)) return bad("vouch_lead_nats", vouch_lead_nats, "positive");
@@ -180,9 +193,12 @@ MatchResult Matcher::Match(const SGraph& map) const {
   }
   const std::vector<Candidate> finalists = search.Finalists(view);
   const AGraph& plan = search.plan.plan();
-  result = Decide(finalists, view, plan, search.options);
+  WrongPlans wrong;
+  if (!finalists.empty() && !WallsTellScale(finalists.front().fit, search.options)) wrong.scaled = search.ScaledLikelihood(view, finalists.front());
+  result = Decide(finalists, view, plan, search.options, wrong);
   if (result.verdict != MatchResult::Verdict::kUnique) return result;
-  return Decide(finalists, view, plan, search.options, impl_->MirroredLikelihood(view, finalists.front().fit.pose));
+  wrong.mirrored = impl_->MirroredLikelihood(view, finalists.front().fit.pose);
+  return Decide(finalists, view, plan, search.options, wrong);
 }
 
 double Matcher::Score(const SGraph& map, const Eigen::Isometry3d& T_plan_map) const {

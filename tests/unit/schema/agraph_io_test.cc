@@ -8,6 +8,7 @@
 #include "schema/agraph_reader.h"
 #include "schema/agraph_writer.h"
 #include "tests/support/house.h"
+#include "tests/support/temporary_folder.h"
 
 namespace plumb {
 namespace {
@@ -102,9 +103,8 @@ TEST(AGraphIo, SurvivesFlippedBits) {
 TEST(AGraphIo, WritesTheSameBytesTwice) { EXPECT_EQ(WriteAGraph(test::MakeHouse()), WriteAGraph(test::MakeHouse())); }
 
 TEST(AGraphIo, LeavesNoTemporaryFileBehind) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "agraph_io";
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
+  const test::TemporaryFolder temporary;
+  const std::filesystem::path folder = temporary.path();
   ASSERT_TRUE(WriteAGraphFile(test::MakeHouse(), folder / "house.agraph"));
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 1);
   EXPECT_TRUE(ReadAGraphFile(folder / "house.agraph"));

@@ -55,7 +55,8 @@ class Validator {
     if (graph_.mesh.triangles.empty()) Emit(DiagnosticKind::kNoTriangles, {}, "the plan has no triangle");
     bool fixed_somewhere = false;
     for (size_t s = 0; s < graph_.storeys.size(); ++s) fixed_somewhere |= FixesPosition(StoreyId(s));
-    if (!fixed_somewhere) Emit(DiagnosticKind::kNowhereToLocalize, {}, "no storey has wall surfaces in two directions: nothing fixes a robot's position");
+    if (!fixed_somewhere)
+      Emit(DiagnosticKind::kNowhereToLocalize, {}, "no storey has wall surfaces in two directions: nothing fixes a robot's position");
     return sink_.all();
   }
 
@@ -83,8 +84,9 @@ class Validator {
     if (across_m >= kLeastAcross_m) return true;
     const Storey& where = graph_.storeys[storey.index()];
     Emit(DiagnosticKind::kWallsInOneDirection, where.guid,
-         fmt::format("the wall surfaces of storey `{}` run in one direction, with {:.2f} m across it; at least {:.2f} m fix a position along them",
-                     where.name, across_m, kLeastAcross_m));
+         fmt::format(
+             "the wall surfaces of storey `{}` run in one direction, with {:.2f} m across it; at least {:.2f} m fix a position along them",
+             where.name, across_m, kLeastAcross_m));
     return false;
   }
 
@@ -258,7 +260,8 @@ CompileResult ReadGraph(const std::string& path) {
 
 std::string Contents(const AGraph& graph) {
   const auto count = [](size_t n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); };
-  return count(graph.rooms.size(), "room") + ", " + count(graph.surfaces.size(), "wall surface") + ", " + count(graph.storeys.size(), "storey");
+  return count(graph.rooms.size(), "room") + ", " + count(graph.surfaces.size(), "wall surface") + ", " +
+         count(graph.storeys.size(), "storey");
 }
 
 }  // namespace

@@ -5,14 +5,14 @@
 #include <vector>
 
 #include "compiler/compile.h"
-#include "compiler/diagnostics/report.h"
 #include "compiler/diagnostics/diagnostic.h"
+#include "compiler/diagnostics/report.h"
 #include "schema/agraph.h"
 
 namespace plumb::compiler {
 
-// What no single pass and no reader can check: that rooms, surfaces and openings fit together, and that there is something to find oneself by.
-// Ids must be in range, as in every A-Graph that the reader returns. Kinds 71xx, 7001 and 8001. Rooms are compared in pairs per storey.
+// What no single pass and no reader can check: that rooms, surfaces and openings fit together, and that there is something to find oneself
+// by. Ids must be in range, as in every A-Graph that the reader returns. Kinds 71xx, 7001 and 8001. Rooms are compared in pairs per storey.
 [[nodiscard]] std::vector<Diagnostic> ValidateGraph(const AGraph& graph);
 
 struct ValidateOptions {
@@ -20,8 +20,8 @@ struct ValidateOptions {
   CompileOptions compile;
 };
 
-// Reads the A-Graph at `path`, or compiles the plan, and writes nothing. Told apart by the identifier in the file; a damaged A-Graph may have
-// lost it, so that the name's ending counts, too. Never throws. Outcome: kFine; kFindings (an error or, if strict, a warning);
+// Reads the A-Graph at `path`, or compiles the plan, and writes nothing. Told apart by the identifier in the file; a damaged A-Graph may
+// have lost it, so that the name's ending counts, too. Never throws. Outcome: kFine; kFindings (an error or, if strict, a warning);
 // kBadInput (nothing that could be read or compiled); kInternal.
 [[nodiscard]] Report ValidateFile(const std::string& path, const ValidateOptions& options = {});
 

@@ -33,8 +33,8 @@ Expected<Container> ReadWhole(const std::string& path, size_t max_bytes) {
   struct stat info {};
   if (::fstat(file.fd, &info) != 0 || S_ISDIR(info.st_mode)) return Fail(ErrorCode::kFileUnreadable, "`" + path + "` is no file");
   if (static_cast<size_t>(info.st_size) > max_bytes) {
-    return Fail(ErrorCode::kFileTooLarge, "`" + path + "` has " + std::to_string(info.st_size) + " bytes; at most " +
-                                              std::to_string(max_bytes) + " are read");
+    return Fail(ErrorCode::kFileTooLarge,
+                "`" + path + "` has " + std::to_string(info.st_size) + " bytes; at most " + std::to_string(max_bytes) + " are read");
   }
   Container bytes;
   bytes.resize(static_cast<size_t>(info.st_size));

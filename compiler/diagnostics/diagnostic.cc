@@ -92,7 +92,8 @@ void DiagnosticSink::Emit(DiagnosticKind kind, SourceLocation location, std::str
 }
 
 size_t DiagnosticSink::Count(Severity severity) const {
-  return static_cast<size_t>(std::count_if(diagnostics_.begin(), diagnostics_.end(), [&](const Diagnostic& d) { return d.severity == severity; }));
+  return static_cast<size_t>(
+      std::count_if(diagnostics_.begin(), diagnostics_.end(), [&](const Diagnostic& d) { return d.severity == severity; }));
 }
 
 std::vector<DiagnosticCount> DiagnosticSink::Summary() const {

@@ -15,11 +15,11 @@ namespace plumb::compiler {
 
 // Where in the source. Fields that a format does not have stay empty or 0.
 struct SourceLocation {
-  uint32_t line = 0;      // 1-based line in a text file
-  uint64_t step_id = 0;   // 123 for #123 (STEP)
-  std::string guid;       // IfcGloballyUniqueId, DXF handle, mesh object name
-  std::string type;       // IfcWallStandardCase, LWPOLYLINE, ...
-  uint32_t column = 0;    // 1-based byte in the line
+  uint32_t line = 0;     // 1-based line in a text file
+  uint64_t step_id = 0;  // 123 for #123 (STEP)
+  std::string guid;      // IfcGloballyUniqueId, DXF handle, mesh object name
+  std::string type;      // IfcWallStandardCase, LWPOLYLINE, ...
+  uint32_t column = 0;   // 1-based byte in the line
 
   [[nodiscard]] std::string ToString() const;  // "#123 IfcDoor 2O2Fr$t4X7Zf8NOew3FLOH"
 };
@@ -53,17 +53,18 @@ class DiagnosticSink {
   std::vector<Diagnostic> diagnostics_;
 };
 
-[[nodiscard]] std::string CodeOf(DiagnosticKind kind);          // "PL2103"
-[[nodiscard]] std::string_view NameOf(DiagnosticKind kind);     // "WallWithoutBody"
-[[nodiscard]] std::string_view RuleOf(DiagnosticKind kind);     // the rule that is broken, one sentence
+[[nodiscard]] std::string CodeOf(DiagnosticKind kind);       // "PL2103"
+[[nodiscard]] std::string_view NameOf(DiagnosticKind kind);  // "WallWithoutBody"
+[[nodiscard]] std::string_view RuleOf(DiagnosticKind kind);  // the rule that is broken, one sentence
 [[nodiscard]] Severity SeverityOf(DiagnosticKind kind);
 
-[[nodiscard]] const char* SeverityName(Severity severity);      // "note", "remark", "warning", "error"
+[[nodiscard]] const char* SeverityName(Severity severity);  // "note", "remark", "warning", "error"
 
 // For people: `plan.ifc:991:1: warning: no doorway leads into ... [PL7103]`, below it the place as the source names it, where the
 // message does not, and the hint. By line,
 // then code; at most `max_per_kind` of a kind, then "and 41 more"; at the end how many errors and warnings there are.
-[[nodiscard]] std::string DiagnosticsToText(const std::vector<Diagnostic>& diagnostics, const std::string& source_path, size_t max_per_kind = 3);
+[[nodiscard]] std::string DiagnosticsToText(const std::vector<Diagnostic>& diagnostics, const std::string& source_path,
+                                            size_t max_per_kind = 3);
 
 // In the order in which they are written down: by place in the file, then by code; equal ones keep the order of emission.
 [[nodiscard]] std::vector<const Diagnostic*> SortedDiagnostics(const std::vector<Diagnostic>& diagnostics);

@@ -67,14 +67,18 @@ std::string Paragraph(std::string_view title, std::string_view text) {
 }  // namespace
 
 const Explanation& ExplanationOf(DiagnosticKind kind) {
-  const auto* it = std::lower_bound(std::begin(kEntries), std::end(kEntries), kind, [](const Entry& e, DiagnosticKind k) { return e.kind < k; });
+  const auto* it =
+      std::lower_bound(std::begin(kEntries), std::end(kEntries), kind, [](const Entry& e, DiagnosticKind k) { return e.kind < k; });
   return it->explanation;
 }
 
 std::string ExplanationText(DiagnosticKind kind) {
   const Explanation& e = ExplanationOf(kind);
-  return fmt::format("{} {}, {} {}\n", CodeOf(kind), NameOf(kind), SeverityOf(kind) == Severity::kError ? "an" : "a", SeverityName(SeverityOf(kind))) +
-         Paragraph("fact", e.fact) + Paragraph("rule", fmt::format("{}{}.", static_cast<char>(RuleOf(kind)[0] >= 'a' ? RuleOf(kind)[0] - 'a' + 'A' : RuleOf(kind)[0]), RuleOf(kind).substr(1))) +
+  return fmt::format("{} {}, {} {}\n", CodeOf(kind), NameOf(kind), SeverityOf(kind) == Severity::kError ? "an" : "a",
+                     SeverityName(SeverityOf(kind))) +
+         Paragraph("fact", e.fact) +
+         Paragraph("rule", fmt::format("{}{}.", static_cast<char>(RuleOf(kind)[0] >= 'a' ? RuleOf(kind)[0] - 'a' + 'A' : RuleOf(kind)[0]),
+                                       RuleOf(kind).substr(1))) +
          Paragraph("why", e.why) + Paragraph("example", e.example) + Paragraph("mend", e.mend);
 }
 

@@ -18,8 +18,8 @@ using Json = nlohmann::ordered_json;
 std::string Dump(const Json& json) { return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 size_t CountOf(const Report& report, Severity severity) {
-  return static_cast<size_t>(
-      std::count_if(report.diagnostics.begin(), report.diagnostics.end(), [severity](const Diagnostic& d) { return d.severity == severity; }));
+  return static_cast<size_t>(std::count_if(report.diagnostics.begin(), report.diagnostics.end(),
+                                           [severity](const Diagnostic& d) { return d.severity == severity; }));
 }
 
 std::string ToText(const Report& report) {
@@ -67,7 +67,8 @@ const char* SarifLevel(Severity severity) {
 std::string PathToUri(const std::string& path) {
   std::string out = path.starts_with("/") ? "file://" : "";
   for (const char c : path) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || std::string_view("-._~/").find(c) != std::string_view::npos;
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       std::string_view("-._~/").find(c) != std::string_view::npos;
     out += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned>(static_cast<unsigned char>(c)));
   }
   return out;

@@ -1,5 +1,6 @@
-// Every diagnostic has a smallest input that provokes it and the text that it then prints: golden/diagnostics/CODE.ifc (or .ifc.gz, .agraph) and
-// CODE.txt. What no drawing can provoke, since only a damaged A-Graph or the file system does, is made here. PLUMB_UPDATE_GOLDEN=1 rewrites the texts.
+// Every diagnostic has a smallest input that provokes it and the text that it then prints: golden/diagnostics/CODE.ifc (or .ifc.gz,
+// .agraph) and CODE.txt. What no drawing can provoke, since only a damaged A-Graph or the file system does, is made here.
+// PLUMB_UPDATE_GOLDEN=1 rewrites the texts.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -34,7 +35,12 @@ using Maker = std::function<AGraph()>;
 const std::map<std::string, Maker>& Graphs() {
   static const std::map<std::string, Maker> kGraphs = {
       {"PL7101", [] { return Changed([](AGraph& g) { std::swap(g.rooms[0].polygon[0], g.rooms[0].polygon[1]); }); }},
-      {"PL7102", [] { return Changed([](AGraph& g) { for (auto& p : g.rooms[1].polygon) p.y() -= 1; }); }},
+      {"PL7102",
+       [] {
+         return Changed([](AGraph& g) {
+           for (auto& p : g.rooms[1].polygon) p.y() -= 1;
+         });
+       }},
       {"PL7104", [] { return Changed([](AGraph& g) { g.rooms[2].surfaces.clear(); }); }},
       {"PL7105", [] { return Changed([](AGraph& g) { g.doorways[0].room_b = g.doorways[0].room_a; }); }},
       {"PL7106", [] { return Changed([](AGraph& g) { g.surfaces[g.rooms[0].surfaces[0].index()].start.y() -= 0.1; }); }},
@@ -110,7 +116,8 @@ TEST_P(DiagnosticsGolden, SmallestInputGivesTheText) {
   if (GetParam() == DiagnosticKind::kInternalError) options.compile.snap_radius_m = -1;  // as only a caller can
   const Report report = ValidateFile(input, options);
   std::vector<Diagnostic> found;
-  std::copy_if(report.diagnostics.begin(), report.diagnostics.end(), std::back_inserter(found), [](const Diagnostic& d) { return d.kind == GetParam(); });
+  std::copy_if(report.diagnostics.begin(), report.diagnostics.end(), std::back_inserter(found),
+               [](const Diagnostic& d) { return d.kind == GetParam(); });
   const std::string text = DiagnosticsToText(found, input, found.size());
   ASSERT_FALSE(found.empty()) << "the input does not provoke it, but:\n" << ReportToString(report, ReportFormat::kText);
   const std::string golden = (kGoldens / (code + ".txt")).string();
@@ -125,7 +132,8 @@ TEST_P(DiagnosticsGolden, SmallestInputGivesTheText) {
 
 std::string NameOfTest(const testing::TestParamInfo<DiagnosticKind>& info) { return CodeOf(info.param) + std::string(NameOf(info.param)); }
 
-INSTANTIATE_TEST_SUITE_P(EveryKind, DiagnosticsGolden, testing::ValuesIn(AllDiagnosticKinds().begin(), AllDiagnosticKinds().end()), NameOfTest);
+INSTANTIATE_TEST_SUITE_P(EveryKind, DiagnosticsGolden, testing::ValuesIn(AllDiagnosticKinds().begin(), AllDiagnosticKinds().end()),
+                         NameOfTest);
 
 TEST(DiagnosticsGoldens, BelongToKindsThatThereAre) {
   for (const auto& entry : fs::directory_iterator(kGoldens)) {

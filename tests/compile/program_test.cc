@@ -52,9 +52,14 @@ class Program : public ::testing::Test {
 };
 
 TEST_F(Program, ValidateSaysTheSameInEveryFormat) {
-  for (const auto& [input, expected] : {std::pair(std::string("house.agraph"), 0), {golden_ + "PL7103.ifc'", 0}, {golden_ + "PL7120.ifc'", 1},
-                                        {golden_ + "PL2002.ifc'", 2}, {golden_ + "PL8002.agraph'", 2}, {std::string("missing.ifc"), 2}}) {
-    const Outcome text = Plumb("validate " + input), json = Plumb("validate --format json " + input), sarif = Plumb("validate --format sarif " + input);
+  for (const auto& [input, expected] : {std::pair(std::string("house.agraph"), 0),
+                                        {golden_ + "PL7103.ifc'", 0},
+                                        {golden_ + "PL7120.ifc'", 1},
+                                        {golden_ + "PL2002.ifc'", 2},
+                                        {golden_ + "PL8002.agraph'", 2},
+                                        {std::string("missing.ifc"), 2}}) {
+    const Outcome text = Plumb("validate " + input), json = Plumb("validate --format json " + input),
+                  sarif = Plumb("validate --format sarif " + input);
     EXPECT_EQ(text.status, expected) << input << text.out << text.err;
     EXPECT_EQ(json.status, expected) << input;
     EXPECT_EQ(sarif.status, expected) << input;
@@ -86,7 +91,8 @@ TEST_F(Program, ExplainKnowsEveryCodeItLists) {
 }
 
 TEST_F(Program, InspectWritesEveryForm) {
-  const Outcome written = Plumb("inspect house.agraph --svg house.svg --graphml house.graphml --nav2 map --storey 'ground floor' --height_m 0.5 --resolution_m 0.1");
+  const Outcome written = Plumb(
+      "inspect house.agraph --svg house.svg --graphml house.graphml --nav2 map --storey 'ground floor' --height_m 0.5 --resolution_m 0.1");
   EXPECT_EQ(written.status, 0) << written.err;
   EXPECT_THAT(Read("house.svg"), HasSubstr("</svg>"));
   EXPECT_THAT(Read("house.graphml"), HasSubstr("</graphml>"));

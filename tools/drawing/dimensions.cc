@@ -15,9 +15,9 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kRightAngle = std::numbers::pi / 2;
-constexpr double kShortest_m = 0.01;    // stops closer than this are one
-constexpr double kFaces = 0.99;  // cosine: a facade looks that way
-constexpr double kSmallest = 13, kLargest = 20;  // fonts
+constexpr double kShortest_m = 0.01;                        // stops closer than this are one
+constexpr double kFaces = 0.99;                             // cosine: a facade looks that way
+constexpr double kSmallest = 13, kLargest = 20;             // fonts
 constexpr double kFirstRow = 80, kRowStep = 80, kTick = 9;  // units of the sheet
 
 // To (-pi/4, pi/4]: directions that differ by quarter turns are one.
@@ -143,8 +143,8 @@ class Drawer {
     const bool is_narrow = sheet_.Length(to_m - from_m) < 0.95 * TextWidth(text, false) * font_size_;
     below_ = is_narrow && !below_;
     const Vector2d at = At(0.5 * (from_m + to_m), Row()) + (below_ ? -(font_size_ + 4) : 6.0) * up_;
-    return fmt::format("<text class=\"dim-text\" x=\"{0}\" y=\"{1}\" font-size=\"{2}\" transform=\"rotate({3:.2f} {0} {1})\">{4}</text>\n", Decimal(at.x()), Decimal(at.y()),
-                       Decimal(font_size_), angle_deg_, text);
+    return fmt::format("<text class=\"dim-text\" x=\"{0}\" y=\"{1}\" font-size=\"{2}\" transform=\"rotate({3:.2f} {0} {1})\">{4}</text>\n",
+                       Decimal(at.x()), Decimal(at.y()), Decimal(font_size_), angle_deg_, text);
   }
 
   const DimensionChain& chain_;
@@ -165,7 +165,9 @@ double MainDirection(const AGraph& graph, StoreyId storey) {
       use(Folded(std::atan2(d.y(), d.x())), d.norm());
     }
   };
-  const auto bin_of = [](double angle_rad) { return std::min<size_t>(89, static_cast<size_t>((angle_rad + kRightAngle / 2) / kRightAngle * 90)); };
+  const auto bin_of = [](double angle_rad) {
+    return std::min<size_t>(89, static_cast<size_t>((angle_rad + kRightAngle / 2) / kRightAngle * 90));
+  };
   visit([&](double angle_rad, double l_m) { length_m[bin_of(angle_rad)] += l_m; });
   const auto best = static_cast<size_t>(std::max_element(length_m.begin(), length_m.end()) - length_m.begin());
   const double middle_rad = (static_cast<double>(best) + 0.5) / 90 * kRightAngle - kRightAngle / 2;
@@ -217,7 +219,8 @@ std::vector<DimensionChain> DimensionsOf(const AGraph& graph, StoreyId storey) {
       SortAndMerge(openings.stops_m);
       out.push_back(std::move(openings));
     }
-    if (side.overall && side.to_m - side.from_m > kShortest_m) out.push_back({side.along, side.outward, outward_m, {side.from_m, side.to_m}, 1});
+    if (side.overall && side.to_m - side.from_m > kShortest_m)
+      out.push_back({side.along, side.outward, outward_m, {side.from_m, side.to_m}, 1});
   }
   return out;
 }

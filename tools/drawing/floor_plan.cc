@@ -95,10 +95,12 @@ std::string DrawWindow(const AGraph& g, const Window& w, const Sheet& sheet) {
 }
 
 size_t DoorwaysOf(const AGraph& g, RoomId room) {
-  return static_cast<size_t>(std::count_if(g.doorways.begin(), g.doorways.end(), [room](const Doorway& d) { return d.room_a == room || d.room_b == room; }));
+  return static_cast<size_t>(
+      std::count_if(g.doorways.begin(), g.doorways.end(), [room](const Doorway& d) { return d.room_a == room || d.room_b == room; }));
 }
 
-// The room into which a leaf opens, as is common where plans do not say: from outside inwards, from a corridor into the room, else into the smaller.
+// The room into which a leaf opens, as is common where plans do not say: from outside inwards, from a corridor into the room, else into the
+// smaller.
 bool OpensTowardsB(const AGraph& g, const Doorway& d) {
   if (!d.room_b.valid()) return false;
   if (!d.room_a.valid()) return true;
@@ -124,8 +126,8 @@ std::string DrawLeaf(const Vector2d& hinge, const Vector2d& latch, const Vector2
   // Sweep flag 1 is clockwise on the sheet.
   const int sweep = open.x() * closed.y() - open.y() * closed.x() < 0 ? 1 : 0;
   const std::string radius = Decimal(sheet.Length(closed.norm()));
-  return fmt::format("<path class=\"leaf\" d=\"{}\"/>\n<path class=\"swing\" d=\"M{}A{} {} 0 0 {} {}\"/>\n", sheet.Line(hinge, tip), sheet.At(tip), radius,
-                     radius, sweep, sheet.At(latch));
+  return fmt::format("<path class=\"leaf\" d=\"{}\"/>\n<path class=\"swing\" d=\"M{}A{} {} 0 0 {} {}\"/>\n", sheet.Line(hinge, tip),
+                     sheet.At(tip), radius, radius, sweep, sheet.At(latch));
 }
 
 std::string DrawDoor(const AGraph& g, const Doorway& d, const Sheet& sheet) {

@@ -77,8 +77,10 @@ std::string DrawNorth(double true_north_rad, double x, double y) {
   const double rad = (90 - turn_deg) * std::numbers::pi / 180;
   const Vector2d letter(x + (kRadius + 20) * std::cos(rad), y - (kRadius + 20) * std::sin(rad));
   return fmt::format(
-      "<g class=\"north\"><circle class=\"dim\" cx=\"{0}\" cy=\"{1}\" r=\"{2:g}\"/><path class=\"scale\" transform=\"translate({0} {1}) rotate({3:.2f})\" "
-      "d=\"M0 -{2:g}L20 40L0 24Z\"/><path class=\"scale odd\" transform=\"translate({0} {1}) rotate({3:.2f})\" d=\"M0 -{2:g}L-20 40L0 24Z\"/>"
+      "<g class=\"north\"><circle class=\"dim\" cx=\"{0}\" cy=\"{1}\" r=\"{2:g}\"/><path class=\"scale\" transform=\"translate({0} {1}) "
+      "rotate({3:.2f})\" "
+      "d=\"M0 -{2:g}L20 40L0 24Z\"/><path class=\"scale odd\" transform=\"translate({0} {1}) rotate({3:.2f})\" d=\"M0 -{2:g}L-20 40L0 "
+      "24Z\"/>"
       "<text x=\"{4}\" y=\"{5}\" font-size=\"26\" font-weight=\"700\">N</text></g>\n",
       Decimal(x), Decimal(y), kRadius, turn_deg, Decimal(letter.x()), Decimal(letter.y() + 9));
 }
@@ -88,10 +90,11 @@ std::string DrawTitle(const AGraph& graph, StoreyId storey, const Sheet& sheet, 
   const std::string file = std::filesystem::path(graph.source_path).filename().string();
   return fmt::format(
       "<text class=\"title\" x=\"{0}\" y=\"{1}\" font-size=\"42\" font-weight=\"600\">{2}</text>"
-      "<text class=\"title\" x=\"{0}\" y=\"{3}\" font-size=\"24\">floor plan 1:{4:g}, storey at {5} m, cut {6:.2f} m above; measures in m</text>"
+      "<text class=\"title\" x=\"{0}\" y=\"{3}\" font-size=\"24\">floor plan 1:{4:g}, storey at {5} m, cut {6:.2f} m above; measures in "
+      "m</text>"
       "<text class=\"title\" x=\"{0}\" y=\"{7}\" font-size=\"24\">{8}</text>\n",
-      Decimal(x), Decimal(y), EscapeXml(s.name), Decimal(y + 40), sheet.denominator(), Signed(s.elevation_m, 2), kSectionHeight_m, Decimal(y + 74),
-      EscapeXml(file));
+      Decimal(x), Decimal(y), EscapeXml(s.name), Decimal(y + 40), sheet.denominator(), Signed(s.elevation_m, 2), kSectionHeight_m,
+      Decimal(y + 74), EscapeXml(file));
 }
 
 std::string DrawStorey(const AGraph& graph, StoreyId storey, const Sheet& sheet, double width) {
@@ -121,12 +124,12 @@ std::string DrawScaleBar(const Sheet& sheet, double x, double y) {
   const double step = sheet.Length(metres) / 5;
   std::string out;
   for (int i = 0; i < 5; ++i) {
-    fmt::format_to(std::back_inserter(out), "<rect class=\"scale{}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"8\"/>", i % 2 == 0 ? "" : " odd",
-                   Decimal(x + i * step), Decimal(y), Decimal(step));
+    fmt::format_to(std::back_inserter(out), "<rect class=\"scale{}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"8\"/>",
+                   i % 2 == 0 ? "" : " odd", Decimal(x + i * step), Decimal(y), Decimal(step));
   }
   for (const int i : {0, 1, 5}) {
-    fmt::format_to(std::back_inserter(out), "<text x=\"{}\" y=\"{}\" font-size=\"18\">{:g}{}</text>", Decimal(x + i * step), Decimal(y + 28), metres * i / 5,
-                   i == 5 ? " m" : "");
+    fmt::format_to(std::back_inserter(out), "<text x=\"{}\" y=\"{}\" font-size=\"18\">{:g}{}</text>", Decimal(x + i * step),
+                   Decimal(y + 28), metres * i / 5, i == 5 ? " m" : "");
   }
   return out + "\n";
 }
@@ -140,14 +143,15 @@ std::string FloorPlansToSvg(const AGraph& graph, const std::vector<StoreyId>& st
     height += sheet.height() + kFooter;
   }
   std::string out = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plan\" viewBox=\"0 0 {0} {1}\" width=\"{2:.2f}mm\" height=\"{3:.2f}mm\">\n<style>\n{4}"
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plan\" viewBox=\"0 0 {0} {1}\" width=\"{2:.2f}mm\" "
+      "height=\"{3:.2f}mm\">\n<style>\n{4}"
       ".plan .title{{text-anchor:start}}\n</style>\n<rect class=\"paper\" width=\"{0}\" height=\"{1}\"/>\n",
       Decimal(width), Decimal(height), width / 10, height / 10, WithoutVariables(FloorPlanStyle()));
   double y = 0;
   for (const StoreyId storey : storeys) {
     const Sheet sheet = SheetAt(graph, storey, denominator);
-    fmt::format_to(std::back_inserter(out), "<g class=\"storey\" id=\"storey-{}\" transform=\"translate(0 {})\">\n{}</g>\n", storey.value, Decimal(y),
-                   DrawStorey(graph, storey, sheet, width));
+    fmt::format_to(std::back_inserter(out), "<g class=\"storey\" id=\"storey-{}\" transform=\"translate(0 {})\">\n{}</g>\n", storey.value,
+                   Decimal(y), DrawStorey(graph, storey, sheet, width));
     y += sheet.height() + kFooter;
   }
   return out + "</svg>\n";

@@ -127,8 +127,9 @@ std::string Draw(const Label& label, double x, double y) {
   double baseline = y - 0.5 * step * static_cast<double>(label.lines.size()) + 0.8 * label.size;
   for (size_t i = 0; i < label.lines.size(); ++i, baseline += step) {
     const bool is_area = i + 1 == label.lines.size();
-    fmt::format_to(std::back_inserter(out), "<text class=\"{}\" x=\"{}\" y=\"{}\" font-size=\"{}\">{}</text>", is_area ? "room-area" : "room-name",
-                   Decimal(x), Decimal(baseline), Decimal(is_area ? 0.88 * label.size : label.size), EscapeXml(label.lines[i]));
+    fmt::format_to(std::back_inserter(out), "<text class=\"{}\" x=\"{}\" y=\"{}\" font-size=\"{}\">{}</text>",
+                   is_area ? "room-area" : "room-name", Decimal(x), Decimal(baseline), Decimal(is_area ? 0.88 * label.size : label.size),
+                   EscapeXml(label.lines[i]));
   }
   return out + "</g>\n";
 }

@@ -15,7 +15,9 @@ Point PointOf(const Eigen::Vector2d& p) { return {p.x(), p.y()}; }
 
 Eigen::Vector3d Corner(const AGraph& g, uint32_t vertex) { return g.mesh.vertices[vertex].cast<double>() + g.origin; }
 
-bool LessXyz(const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3); }
+bool LessXyz(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+}
 
 // Where edge a-b, one end of which is above, passes z. Always from the lesser end, so that both triangles at the edge get the same bits.
 Eigen::Vector2d Crossing(Eigen::Vector3d a, Eigen::Vector3d b, double z_m) {
@@ -55,7 +57,9 @@ std::vector<Ring> Chain(const std::vector<SectionSegment>& segments) {
   return rings;
 }
 
-bool IsFurnishing(ElementKind kind) { return kind == ElementKind::kStair || kind == ElementKind::kRailing || kind == ElementKind::kFurniture; }
+bool IsFurnishing(ElementKind kind) {
+  return kind == ElementKind::kStair || kind == ElementKind::kRailing || kind == ElementKind::kFurniture;
+}
 
 // The faces at one edge of an element.
 struct Faces {

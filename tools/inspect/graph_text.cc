@@ -20,8 +20,9 @@ void WriteHead(const AGraph& g, Writer write) {
   if (!g.options.empty()) fmt::format_to(write, "options  ");
   for (const Option& o : g.options) fmt::format_to(write, " {}={}", o.name, o.value);
   if (!g.options.empty()) fmt::format_to(write, "\n");
-  fmt::format_to(write, "contents  {} storeys, {} walls, {} surfaces, {} rooms, {} doorways, {} windows, {} columns, {} triangles\n", g.storeys.size(),
-                 g.walls.size(), g.surfaces.size(), g.rooms.size(), g.doorways.size(), g.windows.size(), g.columns.size(), g.mesh.triangles.size());
+  fmt::format_to(write, "contents  {} storeys, {} walls, {} surfaces, {} rooms, {} doorways, {} windows, {} columns, {} triangles\n",
+                 g.storeys.size(), g.walls.size(), g.surfaces.size(), g.rooms.size(), g.doorways.size(), g.windows.size(), g.columns.size(),
+                 g.mesh.triangles.size());
   if (g.true_north_rad) fmt::format_to(write, "north     {:.1f} deg counter-clockwise from +x\n", Degrees(*g.true_north_rad));
 }
 

@@ -20,8 +20,9 @@ struct Attribute {
   const char* name;
   const char* type;
 };
-constexpr Attribute kNodeAttributes[] = {{"kind", "string"},   {"label", "string"},   {"guid", "string"},    {"storey", "string"}, {"x_m", "double"},
-                                         {"y_m", "double"},    {"area_m2", "double"}, {"width_m", "double"}, {"length_m", "double"}};
+constexpr Attribute kNodeAttributes[] = {{"kind", "string"},    {"label", "string"},   {"guid", "string"},
+                                         {"storey", "string"},  {"x_m", "double"},     {"y_m", "double"},
+                                         {"area_m2", "double"}, {"width_m", "double"}, {"length_m", "double"}};
 
 struct Look {
   const char* kind;
@@ -77,9 +78,12 @@ class Writer {
   void Text(const char* key, const std::string& value) {
     if (!value.empty()) fmt::format_to(write_, "      <data key=\"{}\">{}</data>\n", key, EscapeXml(value));
   }
-  void Number(const char* key, double value) { fmt::format_to(write_, "      <data key=\"{}\">{:.4f}</data>\n", key, value == 0 ? 0.0 : value); }
+  void Number(const char* key, double value) {
+    fmt::format_to(write_, "      <data key=\"{}\">{:.4f}</data>\n", key, value == 0 ? 0.0 : value);
+  }
 
-  void Open(const std::string& id, const Look& look, const std::string& label, const std::string& guid, StoreyId storey, const Vector2d& at) {
+  void Open(const std::string& id, const Look& look, const std::string& label, const std::string& guid, StoreyId storey,
+            const Vector2d& at) {
     fmt::format_to(write_, "    <node id=\"{}\">\n", id);
     Text("kind", look.kind);
     Text("label", label);
@@ -92,8 +96,8 @@ class Writer {
     fmt::format_to(write_,
                    "      <data key=\"node_graphics\"><y:ShapeNode><y:Geometry x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:g}\" height=\"{:g}\"/>"
                    "<y:Fill color=\"{}\" transparent=\"false\"/><y:NodeLabel>{}</y:NodeLabel><y:Shape type=\"{}\"/></y:ShapeNode></data>\n",
-                   kPixelsPerMetre * at.x() - 0.5 * look.width, kPixelsPerMetre * (top_m - at.y()) - 0.5 * look.height, look.width, look.height, look.fill,
-                   shown, look.shape);
+                   kPixelsPerMetre * at.x() - 0.5 * look.width, kPixelsPerMetre * (top_m - at.y()) - 0.5 * look.height, look.width,
+                   look.height, look.fill, shown, look.shape);
   }
   void Close() { out_ += "    </node>\n"; }
 
@@ -133,13 +137,15 @@ class Writer {
   }
 
   void Edge(const std::string& a, const std::string& b, const char* kind) {
-    fmt::format_to(write_, "    <edge id=\"e{}\" source=\"{}\" target=\"{}\"><data key=\"edge_kind\">{}</data></edge>\n", edges_++, a, b, kind);
+    fmt::format_to(write_, "    <edge id=\"e{}\" source=\"{}\" target=\"{}\"><data key=\"edge_kind\">{}</data></edge>\n", edges_++, a, b,
+                   kind);
   }
   static std::string Id(RoomId room) { return room.valid() ? fmt::format("room:{}", room.value) : std::string("outside"); }
 
   void Edges() {
     for (size_t i = 0; i < graph_.doorways.size(); ++i) {
-      for (const RoomId room : {graph_.doorways[i].room_a, graph_.doorways[i].room_b}) Edge(fmt::format("doorway:{}", i), Id(room), "joins");
+      for (const RoomId room : {graph_.doorways[i].room_a, graph_.doorways[i].room_b})
+        Edge(fmt::format("doorway:{}", i), Id(room), "joins");
     }
     for (const OpenBoundary& b : graph_.open_boundaries) Edge(Id(b.room_a), Id(b.room_b), "open");
     for (size_t i = 0; i < graph_.surfaces.size(); ++i) {

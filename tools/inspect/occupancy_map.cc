@@ -58,7 +58,9 @@ class Painter {
 
  private:
   [[nodiscard]] Vector2d InCells(const Vector2d& p) const { return (p - map_.origin) / map_.resolution_m; }
-  static size_t Index(double at, size_t size) { return static_cast<size_t>(std::clamp(std::floor(at), 0.0, static_cast<double>(size - 1))); }
+  static size_t Index(double at, size_t size) {
+    return static_cast<size_t>(std::clamp(std::floor(at), 0.0, static_cast<double>(size - 1)));
+  }
   [[nodiscard]] size_t Row(double y_m) const { return Index((y_m - map_.origin.y()) / map_.resolution_m, map_.rows); }
 
   void FillRow(const std::vector<Ring>& rings, size_t row, Cell value) {
@@ -86,7 +88,8 @@ class Painter {
 Expected<OccupancyMap> EmptyMap(const AGraph& graph, StoreyId storey, const OccupancyOptions& options) {
   const Eigen::AlignedBox2d box = BoundsOf(graph, storey);
   if (box.isEmpty()) {
-    return Fail(ErrorCode::kPlanUnsuitable, fmt::format("storey `{}` has neither rooms nor walls to make a map of", graph.storeys[storey.index()].name));
+    return Fail(ErrorCode::kPlanUnsuitable,
+                fmt::format("storey `{}` has neither rooms nor walls to make a map of", graph.storeys[storey.index()].name));
   }
   const double step_m = options.resolution_m;
   OccupancyMap map;
@@ -96,8 +99,8 @@ Expected<OccupancyMap> EmptyMap(const AGraph& graph, StoreyId storey, const Occu
   const Vector2d hi = ((box.max().array() + options.margin_m) / step_m - kSlack).ceil();
   const double columns = hi.x() - lo.x(), rows = hi.y() - lo.y();
   if (!(columns * rows <= static_cast<double>(options.max_cells))) {
-    return Fail(ErrorCode::kBadOption, fmt::format("a map of {:.1f} x {:.1f} m with cells of {} m has {:.0f} cells; at most {} are written", columns * step_m,
-                                                   rows * step_m, step_m, columns * rows, options.max_cells));
+    return Fail(ErrorCode::kBadOption, fmt::format("a map of {:.1f} x {:.1f} m with cells of {} m has {:.0f} cells; at most {} are written",
+                                                   columns * step_m, rows * step_m, step_m, columns * rows, options.max_cells));
   }
   map.origin = lo * step_m;
   map.columns = static_cast<size_t>(columns);
@@ -122,7 +125,8 @@ void DrawElements(const AGraph& graph, const std::vector<SectionSegment>& segmen
 void OpenDoorway(const AGraph& graph, const Doorway& d, Painter& painter, double resolution_m) {
   const double thickness_m = d.wall.valid() ? graph.walls[d.wall.index()].thickness_m : 0;
   const Vector2d through(std::cos(d.yaw_rad), std::sin(d.yaw_rad)), along(-through.y(), through.x()), middle = d.position.head<2>();
-  const Vector2d a = std::max(0.5 * d.width_m - 0.5 * resolution_m, 0.5 * resolution_m) * along, b = (0.5 * thickness_m + resolution_m) * through;
+  const Vector2d a = std::max(0.5 * d.width_m - 0.5 * resolution_m, 0.5 * resolution_m) * along,
+                 b = (0.5 * thickness_m + resolution_m) * through;
   painter.Fill({{middle - a - b, middle + a - b, middle + a + b, middle - a + b}}, Cell::kFree);
 }
 
@@ -130,7 +134,8 @@ void OpenDoorway(const AGraph& graph, const Doorway& d, Painter& painter, double
 
 std::string OccupancyOptions::Check() const {
   if (!(height_m > 0 && height_m < 10)) return fmt::format("OccupancyOptions.height_m = {}; must be in (0, 10)", height_m);
-  if (!(resolution_m >= 0.001 && resolution_m <= 10)) return fmt::format("OccupancyOptions.resolution_m = {}; must be in [0.001, 10]", resolution_m);
+  if (!(resolution_m >= 0.001 && resolution_m <= 10))
+    return fmt::format("OccupancyOptions.resolution_m = {}; must be in [0.001, 10]", resolution_m);
   if (!(margin_m >= 0 && margin_m < 1000)) return fmt::format("OccupancyOptions.margin_m = {}; must be in [0, 1000)", margin_m);
   if (max_cells == 0) return "OccupancyOptions.max_cells = 0; must be positive";
   return {};
@@ -166,8 +171,8 @@ std::string MapPgm(const OccupancyMap& map) {
 
 std::string MapYaml(const OccupancyMap& map, const std::string& image) {
   return fmt::format(
-      "image: {}\nmode: trinary\nresolution: {}\norigin: [{:.6f}, {:.6f}, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n", image,
-      map.resolution_m, map.origin.x(), map.origin.y());
+      "image: {}\nmode: trinary\nresolution: {}\norigin: [{:.6f}, {:.6f}, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n",
+      image, map.resolution_m, map.origin.x(), map.origin.y());
 }
 
 }  // namespace plumb::tools

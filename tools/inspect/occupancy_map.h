@@ -24,7 +24,8 @@ struct OccupancyOptions {
 enum class Cell : uint8_t { kOccupied = 0, kUnknown = 205, kFree = 254 };
 
 struct OccupancyMap {
-  Eigen::Vector2d origin = Eigen::Vector2d::Zero();  // lower left corner of the lower left cell, plan frame, metres; a multiple of the resolution
+  Eigen::Vector2d origin =
+      Eigen::Vector2d::Zero();  // lower left corner of the lower left cell, plan frame, metres; a multiple of the resolution
   double resolution_m = 0;
   size_t columns = 0, rows = 0;
   std::vector<Cell> cells;  // by row from the lowest y, as x and y grow
@@ -33,9 +34,9 @@ struct OccupancyMap {
   [[nodiscard]] Cell at(size_t column, size_t row) const { return cells[row * columns + column]; }
 };
 
-// Free: rooms and doorways, all doors standing open. Occupied: every cell that an element meets at that height over the storey's floor (the one
-// with the most area), also panes, which a robot cannot pass. Unknown: the rest. Linear in triangles and cells.
-// Errors: kBadOption (options, too many cells), kPlanUnsuitable (a storey without rooms and walls).
+// Free: rooms and doorways, all doors standing open. Occupied: every cell that an element meets at that height over the storey's floor (the
+// one with the most area), also panes, which a robot cannot pass. Unknown: the rest. Linear in triangles and cells. Errors: kBadOption
+// (options, too many cells), kPlanUnsuitable (a storey without rooms and walls).
 [[nodiscard]] Expected<OccupancyMap> MakeOccupancyMap(const AGraph& graph, StoreyId storey, const OccupancyOptions& options = {});
 
 // Binary PGM (P5), the highest y first.

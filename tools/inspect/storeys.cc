@@ -42,7 +42,8 @@ Expected<StoreyId> FindStorey(const AGraph& graph, const std::string& name_or_nu
   const char* end = name_or_number.data() + name_or_number.size();
   const auto parsed = std::from_chars(name_or_number.data(), end, number);
   if (found.empty() && parsed.ec == std::errc() && parsed.ptr == end && number < graph.storeys.size()) return StoreyId(number);
-  return Fail(ErrorCode::kBadOption, fmt::format("{} storey is `{}`; there are {}", found.empty() ? "no" : "more than one", name_or_number, List(graph)));
+  return Fail(ErrorCode::kBadOption,
+              fmt::format("{} storey is `{}`; there are {}", found.empty() ? "no" : "more than one", name_or_number, List(graph)));
 }
 
 StoreyId MainStorey(const AGraph& graph) {

@@ -23,8 +23,8 @@ struct CompileFlags {
 };
 
 std::string Summary(const AGraph& g, const std::string& output) {
-  return fmt::format("{}: {} storeys, {} walls, {} surfaces, {} rooms, {} doorways, {} windows, {} triangles", output, g.storeys.size(), g.walls.size(),
-                     g.surfaces.size(), g.rooms.size(), g.doorways.size(), g.windows.size(), g.mesh.triangles.size());
+  return fmt::format("{}: {} storeys, {} walls, {} surfaces, {} rooms, {} doorways, {} windows, {} triangles", output, g.storeys.size(),
+                     g.walls.size(), g.surfaces.size(), g.rooms.size(), g.doorways.size(), g.windows.size(), g.mesh.triangles.size());
 }
 
 // With --quiet the errors alone remain.
@@ -51,7 +51,8 @@ Status RunCompile(const CompileFlags& flags, Session& session) {
     const auto written = WriteFileAtomically(flags.diagnostics_json, std::string_view(json));
     if (!written) return session.Fail(written.error());
   }
-  if (result.has_internal_error()) return session.Fail({ErrorCode::kInternal, fmt::format("the compiler failed on `{}`; see above", flags.plan)});
+  if (result.has_internal_error())
+    return session.Fail({ErrorCode::kInternal, fmt::format("the compiler failed on `{}`; see above", flags.plan)});
   if (!result.graph) return session.Fail({ErrorCode::kPlanUnsuitable, fmt::format("`{}` gives no A-Graph; see above", flags.plan)});
   if (const auto written = WriteAGraphFile(*result.graph, flags.output); !written) return session.Fail(written.error());
   session.console.Info(Summary(*result.graph, flags.output));
@@ -73,7 +74,8 @@ void AddCompile(CLI::App& app, Session& session) {
                                 "  plumb compile house.ifc.gz -o house.agraph --diagnostics-json house.json");
   sub->add_option("PLAN", flags->plan, "the plan: IFC as a STEP file, gzipped or not")->required();
   sub->add_option("-o,--output", flags->output, "the A-Graph to write")->required()->type_name("FILE.agraph");
-  sub->add_option("--diagnostics-json", flags->diagnostics_json, "write what the compiler has to say about the plan as JSON")->type_name("FILE");
+  sub->add_option("--diagnostics-json", flags->diagnostics_json, "write what the compiler has to say about the plan as JSON")
+      ->type_name("FILE");
   sub->add_option("--max-per-kind", flags->max_per_kind, "print at most this many diagnostics of a kind");
   AddCompileOptions(*sub, flags->options);
   sub->callback([flags, &session] { session.status = RunCompile(*flags, session); });

@@ -1,5 +1,3 @@
-#include "compiler/diagnostics/explanation.h"
-
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -7,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "compiler/diagnostics/explanation.h"
 #include "tools/plumb/command.h"
 #include "tools/plumb/config.h"
 
@@ -18,8 +17,8 @@ using compiler::DiagnosticKind;
 std::string List() {
   std::string out;
   for (const DiagnosticKind kind : compiler::AllDiagnosticKinds()) {
-    out += fmt::format("{} {:<8} {:<24} {}\n", compiler::CodeOf(kind), compiler::SeverityName(compiler::SeverityOf(kind)), compiler::NameOf(kind),
-                       compiler::RuleOf(kind));
+    out += fmt::format("{} {:<8} {:<24} {}\n", compiler::CodeOf(kind), compiler::SeverityName(compiler::SeverityOf(kind)),
+                       compiler::NameOf(kind), compiler::RuleOf(kind));
   }
   return out;
 }
@@ -28,9 +27,8 @@ Error Unknown(const std::string& code) {
   std::vector<std::string> names;
   for (const DiagnosticKind kind : compiler::AllDiagnosticKinds()) names.emplace_back(compiler::NameOf(kind));
   const std::string near = NearestName(code, names);
-  return {ErrorCode::kBadOption,
-          fmt::format("there is no diagnostic `{}`; {}", code,
-                      near.empty() ? "`plumb explain` lists them" : fmt::format("did you mean `{}`?", near))};
+  return {ErrorCode::kBadOption, fmt::format("there is no diagnostic `{}`; {}", code,
+                                             near.empty() ? "`plumb explain` lists them" : fmt::format("did you mean `{}`?", near))};
 }
 
 Status RunExplain(const std::string& code, Session& session) {

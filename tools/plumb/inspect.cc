@@ -47,9 +47,10 @@ Expected<void> WriteNav2(const AGraph& graph, const InspectFlags& flags, StoreyI
   if (error) return Fail(ErrorCode::kFileUnwritable, fmt::format("cannot create `{}`: {}", flags.nav2, error.message()));
   // The image first: no reader finds a map.yaml without it.
   if (auto written = WriteFileAtomically((folder / "map.pgm").string(), std::string_view(MapPgm(*map))); !written) return written;
-  if (auto written = WriteFileAtomically((folder / "map.yaml").string(), std::string_view(MapYaml(*map, "map.pgm"))); !written) return written;
-  console.Info(fmt::format("{}: map.yaml and map.pgm of {}, {} x {} cells, cut {} m above the floor", flags.nav2, NameOf(graph, storey), map->columns,
-                           map->rows, flags.occupancy.height_m));
+  if (auto written = WriteFileAtomically((folder / "map.yaml").string(), std::string_view(MapYaml(*map, "map.pgm"))); !written)
+    return written;
+  console.Info(fmt::format("{}: map.yaml and map.pgm of {}, {} x {} cells, cut {} m above the floor", flags.nav2, NameOf(graph, storey),
+                           map->columns, map->rows, flags.occupancy.height_m));
   return {};
 }
 
@@ -66,7 +67,8 @@ Status RunInspect(const InspectFlags& flags, Session& session) {
     if (const auto written = WriteSvg(*graph, flags, storey, session.console); !written) return session.Fail(written.error());
   }
   if (!flags.graphml.empty()) {
-    if (const auto written = WriteFileAtomically(flags.graphml, std::string_view(AGraphToGraphMl(*graph))); !written) return session.Fail(written.error());
+    if (const auto written = WriteFileAtomically(flags.graphml, std::string_view(AGraphToGraphMl(*graph))); !written)
+      return session.Fail(written.error());
   }
   if (!flags.nav2.empty()) {
     if (const auto written = WriteNav2(*graph, flags, storey, session.console); !written) return session.Fail(written.error());
@@ -90,9 +92,12 @@ void AddInspect(CLI::App& app, Session& session) {
                                 "  plumb inspect house.agraph --nav2 map/ --storey 0 --height_m 0.25 --resolution_m 0.02");
   sub->add_option("FILE.agraph", flags->path, "the A-Graph")->required();
   sub->add_flag("--json", flags->json, "print it as JSON");
-  sub->add_option("--svg", flags->svg, "draw the floor plans of all storeys, or of --storey, to scale into this file")->type_name("FILE.svg");
-  sub->add_option("--graphml", flags->graphml, "write rooms, doorways and surfaces as a graph, for yEd or networkx")->type_name("FILE.graphml");
-  sub->add_option("--nav2", flags->nav2, "write map.yaml and map.pgm of --storey, or of the one with most rooms, into this folder")->type_name("DIR");
+  sub->add_option("--svg", flags->svg, "draw the floor plans of all storeys, or of --storey, to scale into this file")
+      ->type_name("FILE.svg");
+  sub->add_option("--graphml", flags->graphml, "write rooms, doorways and surfaces as a graph, for yEd or networkx")
+      ->type_name("FILE.graphml");
+  sub->add_option("--nav2", flags->nav2, "write map.yaml and map.pgm of --storey, or of the one with most rooms, into this folder")
+      ->type_name("DIR");
   sub->add_option("--storey", flags->storey, "the storey, by name or counted from 0")->type_name("NAME");
   sub->add_option("--height_m", flags->occupancy.height_m, "of the sensor above the floor, for --nav2, m");
   sub->add_option("--resolution_m", flags->occupancy.resolution_m, "edge of a cell, for --nav2, m");

@@ -12,7 +12,8 @@ namespace {
 
 using compiler::ReportFormat;
 
-const std::map<std::string, ReportFormat> kFormats = {{"text", ReportFormat::kText}, {"json", ReportFormat::kJson}, {"sarif", ReportFormat::kSarif}};
+const std::map<std::string, ReportFormat> kFormats = {
+    {"text", ReportFormat::kText}, {"json", ReportFormat::kJson}, {"sarif", ReportFormat::kSarif}};
 
 struct ValidateFlags {
   std::string path, output, format = "text";
@@ -41,7 +42,8 @@ void AddValidate(CLI::App& app, Session& session) {
                                 "  plumb validate house.agraph --format json\n"
                                 "  plumb validate house.ifc --strict --format sarif -o house.sarif");
   sub->add_option("PLAN|FILE.agraph", flags->path, "what to check")->required();
-  sub->add_option("--format", flags->format, "of what is printed: text, json or sarif (2.1.0)")->check(CLI::IsMember({"text", "json", "sarif"}));
+  sub->add_option("--format", flags->format, "of what is printed: text, json or sarif (2.1.0)")
+      ->check(CLI::IsMember({"text", "json", "sarif"}));
   sub->add_flag("--json", flags->json, "the same as --format json");
   sub->add_option("-o,--output", flags->output, "write it into this file instead of printing it")->type_name("FILE");
   sub->add_flag("--strict", flags->options.strict, "warnings are findings too");

@@ -52,7 +52,8 @@ TEST(Report, JsonSaysTheSame) {
   EXPECT_EQ(wall["code"], "PL2301");
   EXPECT_EQ(wall["severity"], "warning");
   EXPECT_EQ(wall["hint"], "draw it");
-  EXPECT_EQ(wall["location"], Json({{"line", 991}, {"column", 5}, {"step_id", 123}, {"guid", "2O2Fr$t4X7Zf8NOew3FLOH"}, {"type", "IfcWall"}}));
+  EXPECT_EQ(wall["location"],
+            Json({{"line", 991}, {"column", 5}, {"step_id", 123}, {"guid", "2O2Fr$t4X7Zf8NOew3FLOH"}, {"type", "IfcWall"}}));
   EXPECT_EQ(json["diagnostics"][0]["location"], Json::object());
 }
 
@@ -69,7 +70,8 @@ TEST(Report, SarifHasWhatTheSchemaRequires) {
   std::vector<std::string> ids;
   for (const Json& rule : rules) {
     ids.push_back(rule.at("id"));
-    for (const char* text : {"shortDescription", "fullDescription", "help"}) EXPECT_FALSE(rule.at(text).at("text").get<std::string>().empty());
+    for (const char* text : {"shortDescription", "fullDescription", "help"})
+      EXPECT_FALSE(rule.at(text).at("text").get<std::string>().empty());
     EXPECT_THAT(rule.at("defaultConfiguration").at("level").get<std::string>(), ::testing::AnyOf("none", "note", "warning", "error"));
   }
   EXPECT_EQ(ids, (std::vector<std::string>{"PL2301", "PL2304", "PL7120"}));

@@ -26,7 +26,8 @@ TEST(GraphMl, HasANodeForEachRoomDoorwayAndSurface) {
   EXPECT_EQ(nodes.size(), house.rooms.size() + house.doorways.size() + house.surfaces.size() + 1);
   EXPECT_TRUE(nodes.contains("outside"));
   // Every edge has its ends, every key that is used is declared.
-  for (const auto& m : Matches(text, "source=\"([^\"]*)\" target=\"([^\"]*)\"")) EXPECT_TRUE(nodes.contains(m[1]) && nodes.contains(m[2])) << m[0];
+  for (const auto& m : Matches(text, "source=\"([^\"]*)\" target=\"([^\"]*)\""))
+    EXPECT_TRUE(nodes.contains(m[1]) && nodes.contains(m[2])) << m[0];
   for (const auto& m : Matches(text, "<data key=\"([^\"]*)\"")) EXPECT_THAT(text, HasSubstr("<key id=\"" + m[1].str() + "\""));
 }
 

@@ -29,10 +29,10 @@ Cell CellAt(const OccupancyMap& map, double x_m, double y_m) {
 
 TEST(OccupancyMap, RoomsAreFreeWallsOccupiedTheRestUnknown) {
   const OccupancyMap map = MapOf(test::MakeHouse());
-  EXPECT_EQ(CellAt(map, 1, 1), Cell::kFree);         // room A
-  EXPECT_EQ(CellAt(map, 7, 3), Cell::kFree);         // room C
+  EXPECT_EQ(CellAt(map, 1, 1), Cell::kFree);          // room A
+  EXPECT_EQ(CellAt(map, 7, 3), Cell::kFree);          // room C
   EXPECT_EQ(CellAt(map, -0.15, 5), Cell::kOccupied);  // within the west wall
-  EXPECT_EQ(CellAt(map, 5, 5), Cell::kOccupied);     // within the middle wall
+  EXPECT_EQ(CellAt(map, 5, 5), Cell::kOccupied);      // within the middle wall
   EXPECT_EQ(CellAt(map, 8.7, 0.2), Cell::kOccupied);  // the chimney
   EXPECT_EQ(CellAt(map, -0.6, 3), Cell::kUnknown);
   EXPECT_EQ(CellAt(map, 4, -0.5), Cell::kUnknown);
@@ -76,7 +76,8 @@ TEST(OccupancyMap, SlantedLinesHaveNoHoles) {
   AGraph house = test::MakeHouse();
   // A sheet without thickness, steep: every row between its ends is crossed.
   const auto base = static_cast<uint32_t>(house.mesh.vertices.size());
-  for (const auto& [x, y, z] : {std::tuple(6.03F, 1.02F, 0.F), {6.71F, 4.33F, 0.F}, {6.71F, 4.33F, 2.F}, {6.03F, 1.02F, 2.F}}) house.mesh.vertices.emplace_back(x, y, z);
+  for (const auto& [x, y, z] : {std::tuple(6.03F, 1.02F, 0.F), {6.71F, 4.33F, 0.F}, {6.71F, 4.33F, 2.F}, {6.03F, 1.02F, 2.F}})
+    house.mesh.vertices.emplace_back(x, y, z);
   const uint32_t element = test::AddElement(house, "sheet", ElementKind::kFurniture);
   house.mesh.triangles.push_back({base, base + 1, base + 2, element});
   house.mesh.triangles.push_back({base, base + 2, base + 3, element});
@@ -107,7 +108,9 @@ TEST(OccupancyMap, FilesAreAsMapServerReadsThem) {
   EXPECT_THAT(pgm, ::testing::StartsWith(header));
   ASSERT_EQ(pgm.size(), header.size() + map.columns * map.rows);
   // The last line of the image is the lowest row of the map.
-  const auto pixel = [&](size_t column, size_t row) { return static_cast<uint8_t>(pgm[header.size() + (map.rows - 1 - row) * map.columns + column]); };
+  const auto pixel = [&](size_t column, size_t row) {
+    return static_cast<uint8_t>(pgm[header.size() + (map.rows - 1 - row) * map.columns + column]);
+  };
   for (size_t row = 0; row < map.rows; row += 7) {
     for (size_t column = 0; column < map.columns; column += 5) {
       const double occupied = (255 - pixel(column, row)) / 255.0;
@@ -117,7 +120,8 @@ TEST(OccupancyMap, FilesAreAsMapServerReadsThem) {
   }
   // 0.3 m of wall and 0.5 m of border.
   EXPECT_EQ(MapYaml(map, "map.pgm"),
-            "image: map.pgm\nmode: trinary\nresolution: 0.05\norigin: [-0.800000, -0.800000, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n");
+            "image: map.pgm\nmode: trinary\nresolution: 0.05\norigin: [-0.800000, -0.800000, 0.0]\nnegate: 0\noccupied_thresh: "
+            "0.65\nfree_thresh: 0.196\n");
 }
 
 TEST(OccupancyMap, RefusesBadOptionsAndEmptyStoreys) {

@@ -7,6 +7,9 @@
 
 #include <algorithm>
 #include <exception>
+#include <map>
+#include <string_view>
+#include <vector>
 
 #include "compiler/emit/emit.h"
 #include "compiler/frontends/ifc/ifc_frontend.h"
@@ -54,6 +57,22 @@ void ReleaseSolids(PlanIr& plan) {
 #endif
 }
 
+// What checks of the graph know by GUID only is shown where it stands in the source.
+void AddLocated(const PlanIr& plan, const std::vector<Diagnostic>& found, DiagnosticSink& sink) {
+  std::map<std::string_view, const SourceLocation*> by_guid;
+  const auto add = [&by_guid](const auto& items) {
+    for (const auto& item : items) by_guid.emplace(item.guid, &item.location);
+  };
+  add(plan.elements);
+  add(plan.openings);
+  add(plan.spaces);
+  add(plan.storeys);
+  for (const Diagnostic& d : found) {
+    const auto known = d.location.guid.empty() ? by_guid.end() : by_guid.find(d.location.guid);
+    sink.Emit(d.kind, known == by_guid.end() ? d.location : *known->second, d.message, d.hint);
+  }
+}
+
 std::optional<AGraph> Run(const std::string& path, const CompileOptions& options, DiagnosticSink& sink) {
   std::optional<PlanIr> plan = ReadPlan(path, sink);
   if (!plan) return std::nullopt;
@@ -64,7 +83,7 @@ std::optional<AGraph> Run(const std::string& path, const CompileOptions& options
   ReleaseSolids(*plan);
   MoveToPlanFrame(*plan, graph);
   ForecastAliases({}, graph);
-  for (const Diagnostic& d : ValidateGraph(graph)) sink.Emit(d.kind, d.location, d.message, d.hint);
+  AddLocated(*plan, ValidateGraph(graph), sink);
   EmitProvenance(*plan, Recorded(options), sink, graph);
   return graph;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <exception>
+#include <new>
 
 #include "compiler/emit/emit.h"
 #include "compiler/frontends/ifc/ifc_frontend.h"
@@ -73,6 +74,9 @@ CompileResult Compile(const std::string& path, const CompileOptions& options) {
   }
   try {
     out.graph = Run(path, options, out.diagnostics);
+  } catch (const std::bad_alloc&) {
+    out.graph.reset();
+    out.diagnostics.Emit(DiagnosticKind::kPlanTooComplex, {}, fmt::format("`{}` needs more memory than there is", path));
   } catch (const std::exception& e) {
     out.graph.reset();
     out.diagnostics.Emit(DiagnosticKind::kInternalError, {}, fmt::format("the compiler failed: {}", e.what()));

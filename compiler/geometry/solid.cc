@@ -174,7 +174,7 @@ void FlipSolid(Solid& solid) {
 void AppendSolid(const Solid& from, Solid& into) {
   const int base = static_cast<int>(into.vertices.size());
   into.vertices.insert(into.vertices.end(), from.vertices.begin(), from.vertices.end());
-  into.triangles.reserve(into.triangles.size() + from.triangles.size());
+  // No reserve: appending many solids to one would copy it each time.
   for (const Vector3i& t : from.triangles) into.triangles.emplace_back(t.array() + base);
 }
 

@@ -302,9 +302,8 @@ std::optional<PlanIr> ReadIfc(const Source& source, DiagnosticSink& diagnostics,
   }
   if (!IsSupported(source, diagnostics)) return std::nullopt;
   std::optional<IfcModel> model = IfcModel::Open(source.bytes, diagnostics);
-  if (!model) return std::nullopt;
+  if (!model || model->is_refused()) return std::nullopt;
   ReadUnits(*model);
-  if (model->is_refused()) return std::nullopt;
   PlanIr plan = Frontend(*model, options).Run();
   if (model->is_refused()) return std::nullopt;
   plan.source_path = source.path;

@@ -15,7 +15,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr int kMaxDepth = 16;
-constexpr double kSamePoint_m = 1e-6;
 
 Ring2 Rectangle(double x_m, double y_m) { return {{-x_m / 2, -y_m / 2}, {x_m / 2, -y_m / 2}, {x_m / 2, y_m / 2}, {-x_m / 2, y_m / 2}}; }
 

@@ -1,6 +1,9 @@
 #include "compiler/compile.h"
 
 #include <fmt/format.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include <algorithm>
 #include <exception>
@@ -8,6 +11,7 @@
 
 #include "compiler/emit/emit.h"
 #include "compiler/frontends/ifc/ifc_frontend.h"
+#include "compiler/passes/alias_forecast.h"
 #include "compiler/passes/build_agraph.h"
 #include "compiler/source/source.h"
 #include "compiler/validate.h"
@@ -37,6 +41,16 @@ std::optional<PlanIr> ReadPlan(const std::string& path, DiagnosticSink& sink) {
   return ReadIfc(*source, sink);
 }
 
+// The solids are most of the memory and no longer needed: give it back before the file is put together.
+void ReleaseSolids(PlanIr& plan) {
+  plan.elements = {};
+  plan.openings = {};
+  plan.spaces = {};
+#ifdef __GLIBC__
+  malloc_trim(0);  // they are small blocks, which free alone keeps
+#endif
+}
+
 std::optional<AGraph> Run(const std::string& path, const CompileOptions& options, DiagnosticSink& sink) {
   std::optional<PlanIr> plan = ReadPlan(path, sink);
   if (!plan) return std::nullopt;
@@ -44,7 +58,9 @@ std::optional<AGraph> Run(const std::string& path, const CompileOptions& options
   if (!built) return std::nullopt;
   AGraph graph = std::move(built->graph);
   EmitMesh(*plan, graph);
+  ReleaseSolids(*plan);
   MoveToPlanFrame(*plan, graph);
+  ForecastAliases({}, graph);
   for (const Diagnostic& d : ValidateGraph(graph)) sink.Emit(d.kind, d.location, d.message, d.hint);
   EmitProvenance(*plan, Recorded(options), sink, graph);
   return graph;

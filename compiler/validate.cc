@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "compiler/passes/alias_text.h"
 #include "compiler/passes/polygon.h"
 
 namespace plumb::compiler {
@@ -50,6 +51,7 @@ class Validator {
     CheckWalls();
     if (graph_.rooms.empty()) Emit(DiagnosticKind::kNoRooms, {}, "the plan has no room");
     if (graph_.mesh.triangles.empty()) Emit(DiagnosticKind::kNoTriangles, {}, "the plan has no triangle");
+    for (const Diagnostic& d : DescribeAliases(graph_)) sink_.Emit(d.kind, d.location, d.message, d.hint);
     return sink_.all();
   }
 

@@ -8,7 +8,7 @@
 
 namespace plumb::compiler {
 
-// Ids must be in range, as in every A-Graph that the reader returns. Kinds 71xx, 7001 and 8001. Rooms are compared in pairs per storey.
+// Ids must be in range, as in every A-Graph that the reader returns. Kinds 71xx, 72xx, 7001 and 8001. Rooms are compared in pairs per storey.
 [[nodiscard]] std::vector<Diagnostic> ValidateGraph(const AGraph& graph);
 
 }  // namespace plumb::compiler

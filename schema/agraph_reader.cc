@@ -132,8 +132,18 @@ void ReadRest(const fb::AGraph& in, Copier& copy, AGraph& out) {
       for (const fb::Triangle* t : *mesh->triangles()) out.mesh.triangles.push_back({t->a(), t->b(), t->c(), t->element()});
     }
   }
-  ReadAll(in.aliases(), out.aliases, [](const fb::Alias& a) {
-    return Alias{a.yaw_rad(), Vec(a.translation()), a.overlap_ratio(), StoreyId(a.from_storey()), StoreyId(a.to_storey())};
+  ReadAll(in.aliases(), out.aliases, [&](const fb::Alias& a) {
+    Alias alias{a.yaw_rad(), Vec(a.translation()), a.overlap_ratio(), StoreyId(a.from_storey()), StoreyId(a.to_storey()), {}, {},
+                a.tolerance_m(), a.section_length_m(), a.closed(), {}};
+    copy.Numbers(a.rooms(), alias.rooms);
+    copy.Numbers(a.twins(), alias.twins);
+    copy.Numbers(a.differences(), alias.differences);
+    return alias;
+  });
+  ReadAll(in.look_alikes(), out.look_alikes, [&](const fb::LookAlikes& l) {
+    LookAlikes alike;
+    copy.Numbers(l.rooms(), alike.rooms);
+    return alike;
   });
   ReadAll(in.diagnostics(), out.diagnostics, [&](const fb::DiagnosticCount& d) {
     return DiagnosticCount{copy.Str(d.code()), static_cast<Severity>(d.severity()), d.count()};
@@ -178,6 +188,10 @@ class Checker {
       Fault(what, i, fmt::format("refers to entry {} of a table with {}", id.value, size));
     }
   }
+  template <class Tag>
+  void References(const char* what, size_t i, const std::vector<Id<Tag>>& ids, size_t size) {
+    for (Id<Tag> id : ids) Reference(what, i, id, size, false);
+  }
   void CheckRing(const char* what, size_t i, const Ring& ring) {
     for (const auto& p : ring) Finite(what, i, p);
     if (ring.size() < 3) Fault(what, i, fmt::format("a ring has {} points; it needs 3", ring.size()));
@@ -206,7 +220,7 @@ class Checker {
       CheckRing("room", i, r.polygon);
       for (const Ring& hole : r.holes) CheckRing("room", i, hole);
       Reference("room", i, r.storey, graph_.storeys.size(), true);
-      for (SurfaceId id : r.surfaces) Reference("room", i, id, graph_.surfaces.size(), false);
+      References("room", i, r.surfaces, graph_.surfaces.size());
     }
   }
   void CheckOpenings() {
@@ -257,16 +271,22 @@ class Checker {
     }
   }
   void CheckRest() {
-    for (size_t i = 0; i < graph_.aliases.size(); ++i) {
-      const Alias& a = graph_.aliases[i];
-      Finite("alias", i, a.yaw_rad, a.translation, a.overlap_ratio);
-      Reference("alias", i, a.from_storey, graph_.storeys.size(), true);
-      Reference("alias", i, a.to_storey, graph_.storeys.size(), true);
-    }
+    for (size_t i = 0; i < graph_.aliases.size(); ++i) CheckAlias(i);
+    for (size_t i = 0; i < graph_.look_alikes.size(); ++i) References("look-alikes", i, graph_.look_alikes[i].rooms, graph_.rooms.size());
     for (size_t i = 0; i < graph_.factors.size(); ++i) CheckFactor(i);
     for (size_t i = 0; i < graph_.diagnostics.size(); ++i) {
       if (graph_.diagnostics[i].severity > Severity::kError) Fault("diagnostic", i, "its severity is unknown");
     }
+  }
+  void CheckAlias(size_t i) {
+    const Alias& a = graph_.aliases[i];
+    Finite("alias", i, a.yaw_rad, a.translation, a.overlap_ratio, a.tolerance_m, a.section_length_m);
+    Reference("alias", i, a.from_storey, graph_.storeys.size(), true);
+    Reference("alias", i, a.to_storey, graph_.storeys.size(), true);
+    References("alias", i, a.rooms, graph_.rooms.size());
+    References("alias", i, a.twins, graph_.rooms.size());
+    References("alias", i, a.differences, graph_.elements.size());
+    if (a.rooms.size() != a.twins.size()) Fault("alias", i, "it has not one twin for each room");
   }
   void CheckFactor(size_t i) {
     const Factor& f = graph_.factors[i];

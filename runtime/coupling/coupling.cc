@@ -8,7 +8,9 @@
 
 #include "runtime/coupling/level_matching.h"
 #include "runtime/coupling/mixture.h"
+#include "runtime/coupling/sight_lines.h"
 #include "runtime/coupling/wall_frame.h"
+#include "runtime/coupling/wall_openings.h"
 
 namespace plumb::runtime {
 namespace {
@@ -19,9 +21,13 @@ constexpr double kMinSizeShare = 0.5;      // a line behind another is the wall 
 constexpr double kHigher_m = 0.10;         // ... or is seen this much higher up
 constexpr double kFrontPenalty_nats = 8;   // for taking a surface with a wall visible behind it for the wall
 constexpr double kOpeningMargin_m = 0.12;  // frames reach this far beyond an opening's stated size
-// A patch is a leaf, a pane or a frame if half of its height and this share of its length lie in an opening; recessed ones that join up with a
-// bit of wall sooner.
-constexpr double kInOpeningRatio = 0.9, kRecessedInOpeningRatio = 0.65, kInOpeningHeightRatio = 0.5, kRecess_m = 0.02;
+constexpr double kMaxOpenRatio = 0.5;      // of a patch's cells: with more of them in openings it is leaves, panes and frames
+constexpr double kRecess_m = 0.02;         // leaves, panes and frames lie at least this far behind the wall's face
+constexpr double kOffPlan_m = 0.06;        // a wall further off its plan ...
+constexpr double kMaxPassedRatio = 0.2;    // ... must stop the lines of sight, all but so many
+constexpr size_t kMinPassed = 5;
+constexpr double kInOpeningRatio = 0.6;    // of an observation's extent either way: it is of what fills the opening
+constexpr double kHalfExtentSigmas = 1.7;  // half the extent of evenly spread points
 constexpr double kMinSingleArea_m2 = 0.6;  // a smaller patch seen from one keyframe only is too rough to tell
 constexpr double kStepPerMetre = 0.01;     // lines are compared at a distance: allow for their direction errors
 
@@ -30,39 +36,53 @@ struct Patch {
   uint32_t map_surface;
   Eigen::Vector2d start, end;
   Eigen::Vector3d normal;
-  double z_min, z_max, area;
+  double z_min, z_max, z_shift, area;  // z_shift: from the map's heights to the plan's
+  const std::vector<Eigen::Vector2f>* cells;  // MapSurface::cells
   [[nodiscard]] double length() const { return (end - start).norm(); }
   [[nodiscard]] Eigen::Vector2d midpoint() const { return 0.5 * (start + end); }
 };
 
-// A doorway or window: here the wall has no face, whatever is seen there.
-struct WallOpening {
-  Eigen::Vector2d middle;
-  double width_m, z_min_m, z_max_m;
-};
-
-std::vector<std::vector<WallOpening>> OpeningsOfWalls(const AGraph& plan) {
-  std::vector<std::vector<WallOpening>> openings(plan.walls.size());
-  const auto add = [&](WallId wall, const Eigen::Vector3d& at, double width_m, double height_m) {
-    if (wall.valid()) openings[wall.index()].push_back({at.head<2>(), width_m, at.z(), at.z() + height_m});
-  };
-  for (const Doorway& d : plan.doorways) add(d.wall, d.position, d.width_m, d.height_m);
-  for (const Window& w : plan.windows) add(w.wall, w.position, w.width_m, w.height_m);
-  return openings;
+// Share of the patch that is seen where its wall has no face. `along` runs along the wall; recessed patches may be frames.
+double OpenRatio(const Patch& patch, const std::vector<WallOpening>& openings, const Eigen::Vector2d& along, bool recessed) {
+  if (patch.cells->empty() || openings.empty()) return 0;
+  const double margin_m = recessed ? kOpeningMargin_m : 0.0;
+  const double from = along.dot(patch.start), per_metre = along.dot(patch.end - patch.start) / patch.length();
+  size_t open = 0;
+  for (const Eigen::Vector2f& cell : *patch.cells) {
+    open += InOpening(openings, along, from + per_metre * cell.x(), cell.y() + patch.z_shift, margin_m) ? 1 : 0;
+  }
+  return static_cast<double>(open) / static_cast<double>(patch.cells->size());
 }
 
-bool InOpening(const Patch& patch, const std::vector<WallOpening>& openings, const Eigen::Vector2d& along, bool recessed) {
-  const double p0 = along.dot(patch.start), p1 = along.dot(patch.end);
-  const double ratio = recessed ? kRecessedInOpeningRatio : kInOpeningRatio;
-  for (const WallOpening& o : openings) {
-    const double height_m =
-        std::min(patch.z_max, o.z_max_m + kOpeningMargin_m) - std::max(patch.z_min, o.z_min_m - kOpeningMargin_m);
-    if (height_m < kInOpeningHeightRatio * (patch.z_max - patch.z_min)) continue;
-    const double middle = along.dot(o.middle), reach = 0.5 * o.width_m + kOpeningMargin_m;
-    const double covered = std::min(std::max(p0, p1), middle + reach) - std::max(std::min(p0, p1), middle - reach);
-    if (covered >= ratio * std::abs(p1 - p0)) return true;
+// The observations that lie in one of the wall's openings for the most part.
+std::vector<uint32_t> SeenInOpenings(const SGraph& map, const MapSurface& seen, const Surface& surface, const std::vector<WallOpening>& openings,
+                                     const Eigen::Isometry3d& T_plan_map) {
+  std::vector<uint32_t> out;
+  const Eigen::Vector2d along = (surface.end - surface.start).normalized();
+  Eigen::Matrix<double, 4, 2> axes = Eigen::Matrix<double, 4, 2>::Zero();  // along and up, of homogeneous points
+  axes.col(0).head<2>() = along;
+  axes(2, 1) = 1;
+  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(kOpeningMargin_m);
+  for (uint32_t i = 0; i < seen.observations.size(); ++i) {
+    const Observation& o = seen.observations[i];
+    const PlaneStats stats = o.stats.Transformed(T_plan_map * map.keyframes[o.keyframe].T_map_kf);
+    const Eigen::Vector2d middle = axes.transpose() * stats.C.col(3) / stats.count();
+    const Eigen::Vector2d variance = (axes.transpose() * stats.C * axes).diagonal() / stats.count() - middle.cwiseAbs2();
+    const Eigen::Vector2d reach = kHalfExtentSigmas * variance.cwiseMax(0.0).cwiseSqrt();
+    const bool inside = std::any_of(openings.begin(), openings.end(), [&](const WallOpening& w) {
+      const Eigen::Vector2d lo(along.dot(w.middle) - 0.5 * w.width_m, w.z_min_m), hi(along.dot(w.middle) + 0.5 * w.width_m, w.z_max_m);
+      const Eigen::Vector2d covered = (middle + reach).cwiseMin(hi + margin) - (middle - reach).cwiseMax(lo - margin);
+      return (covered.array() >= kInOpeningRatio * 2 * reach.array()).all();
+    });
+    if (inside) out.push_back(i);
   }
-  return false;
+  return out;
+}
+
+// Would a wall in the patch's plane stand in the way of what was seen?
+bool IsSeenThrough(const Patch& patch, const Surface& surface, const std::vector<WallOpening>& openings, const SightLines& sight) {
+  const SightLines::Count count = sight.Meeting({patch.midpoint(), patch.normal.head<2>().normalized(), &surface, &openings});
+  return static_cast<double>(count.passed) > kMaxPassedRatio * static_cast<double>(count.ended + count.passed) && count.passed > kMinPassed;
 }
 
 struct Candidate {
@@ -79,7 +99,8 @@ std::vector<Patch> WallPatches(const SGraph& map, const Eigen::Isometry3d& T_pla
     if (s.observations.size() < 2 && s.area_m2 < kMinSingleArea_m2) continue;
     const Eigen::Vector3d start = T_plan_map * Eigen::Vector3d(s.start.x(), s.start.y(), s.z_min_m);
     const Eigen::Vector3d end = T_plan_map * Eigen::Vector3d(s.end.x(), s.end.y(), s.z_max_m);
-    patches.push_back({static_cast<uint32_t>(i), start.head<2>(), end.head<2>(), T_plan_map.linear() * s.plane.n, start.z(), end.z(), s.area_m2});
+    patches.push_back({static_cast<uint32_t>(i), start.head<2>(), end.head<2>(), T_plan_map.linear() * s.plane.n, start.z(), end.z(),
+                       T_plan_map.translation().z(), s.area_m2, &s.cells});
   }
   return patches;
 }
@@ -91,7 +112,7 @@ double OverlapRatio(double a0, double a1, double b0, double b1) {
 }
 
 std::optional<Candidate> Compare(const Patch& patch, SurfaceId id, const Surface& surface, const WallFrame& frame, const WallDeviation& known,
-                                 const std::vector<WallOpening>& openings, const CouplingOptions& options) {
+                                 const std::vector<WallOpening>& openings, const SightLines& sight, const CouplingOptions& options) {
   const Eigen::Vector3d& n = surface.normal;
   const double yaw = std::atan2(n.x() * patch.normal.y() - n.y() * patch.normal.x(), n.head<2>().dot(patch.normal.head<2>()));
   if (std::abs(yaw - known.yaw_rad) > options.max_yaw_rad) return std::nullopt;
@@ -116,7 +137,8 @@ std::optional<Candidate> Compare(const Patch& patch, SurfaceId id, const Surface
   const double expected = known.offset_m * frame.normal.dot(n) + known.yaw_rad * n.head<2>().dot(Eigen::Vector2d(-arm.y(), arm.x()));
   const Eigen::Vector2d residual(c.offset_m - expected, yaw - known.yaw_rad);
   if (std::abs(residual.x()) > options.max_offset_m) return std::nullopt;
-  if (InOpening(patch, openings, along, std::min(c.offset_m, residual.x()) < -kRecess_m)) return std::nullopt;
+  if (OpenRatio(patch, openings, along, std::min(c.offset_m, residual.x()) < -kRecess_m) > kMaxOpenRatio) return std::nullopt;
+  if (std::abs(c.offset_m) > kOffPlan_m && IsSeenThrough(patch, surface, openings, sight)) return std::nullopt;
   const double yaw_sigma = kMapSigma_m / std::max(patch.length(), 0.3);
   const Eigen::Matrix2d covariance = Eigen::Vector2d(kMapSigma_m * kMapSigma_m, yaw_sigma * yaw_sigma).asDiagonal();
   c.cost_nats = AssessMixture(residual, covariance, options).cost_nats - std::log((to - from) / std::max(patch.length(), to - from));
@@ -262,6 +284,7 @@ std::vector<Match> MatchSurfaces(const SGraph& map, const AGraph& plan, const Ei
   const std::vector<WallFrame> frames = WallFrames(plan);
   const std::vector<Patch> patches = WallPatches(map, T_plan_map);
   const std::vector<std::vector<WallOpening>> openings = OpeningsOfWalls(plan);
+  const SightLines sight(map, T_plan_map);
   std::vector<std::vector<Candidate>> candidates(patches.size());
   for (size_t i = 0; i < patches.size(); ++i) {
     for (size_t j = 0; j < plan.surfaces.size(); ++j) {
@@ -269,7 +292,7 @@ std::vector<Match> MatchSurfaces(const SGraph& map, const AGraph& plan, const Ei
       if (!surface.wall.valid() || !IsFace(frames[surface.wall.index()], surface)) continue;
       const WallDeviation deviation = surface.wall.index() < known.size() ? known[surface.wall.index()] : WallDeviation{};
       const size_t wall = surface.wall.index();
-      if (auto c = Compare(patches[i], SurfaceId(j), surface, frames[wall], deviation, openings[wall], options)) candidates[i].push_back(*c);
+      if (auto c = Compare(patches[i], SurfaceId(j), surface, frames[wall], deviation, openings[wall], sight, options)) candidates[i].push_back(*c);
     }
   }
   const std::vector<std::vector<Candidate>> assigned = Assignment(patches, std::move(candidates), options).Solve();
@@ -278,7 +301,11 @@ std::vector<Match> MatchSurfaces(const SGraph& map, const AGraph& plan, const Ei
   for (size_t i = 0; i < patches.size(); ++i) {
     if (assigned[i].empty()) continue;
     const Candidate& c = assigned[i].front();
-    matches.push_back({patches[i].map_surface, c.surface, RoomId(), c.offset_m, c.yaw_rad});
+    const Surface& surface = plan.surfaces[c.surface.index()];
+    const MapSurface& seen = map.surfaces[patches[i].map_surface];
+    std::vector<uint32_t> mistaken = SeenInOpenings(map, seen, surface, openings[surface.wall.index()], T_plan_map);
+    if (mistaken.size() == seen.observations.size()) continue;
+    matches.push_back({patches[i].map_surface, c.surface, RoomId(), c.offset_m, c.yaw_rad, std::move(mistaken)});
   }
   std::sort(matches.begin(), matches.end(), [](const Match& a, const Match& b) { return a.map_surface < b.map_surface; });
   return matches;

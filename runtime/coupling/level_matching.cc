@@ -39,7 +39,7 @@ std::vector<Match> MatchLevels(const SGraph& map, const AGraph& plan, const Eige
     const auto best = std::max_element(votes.begin(), votes.end());
     if (best == votes.end() || *best <= 0) continue;
     const auto room = static_cast<size_t>(best - votes.begin());
-    matches.push_back({static_cast<uint32_t>(i), SurfaceId(), RoomId(room), offsets[room] / *best, 0});
+    matches.push_back({static_cast<uint32_t>(i), SurfaceId(), RoomId(room), offsets[room] / *best, 0, {}});
   }
   return matches;
 }

@@ -13,8 +13,14 @@ namespace {
 constexpr double kSameFacingCos = 0.8;
 // Two views of one surface may differ in direction by this much at the shorter one's ends, and by odometry's drift.
 constexpr double kEndOffset_m = 0.03, kMinAngle_rad = 0.02;
+constexpr double kMaxJointOff = 0.5;  // of the merge distance: how much further from the common plane than from its own a part's points may be, rms
 constexpr double kEchoPoints = 0.2, kEchoFacingCos = 0.94, kEchoDistance_m = 0.06, kEchoShare = 0.6;
 constexpr double kEdge_m = 0.5 * kCell_m;  // a cell's mean point lies inside the surface's edge by about this
+
+double MeanSquareDistance(const PlaneStats& sum, const Plane& plane) {
+  const Eigen::Vector4d p(plane.n.x(), plane.n.y(), plane.n.z(), plane.d);
+  return p.dot(sum.C * p) / sum.count();
+}
 
 // Angle between the normals; for walls of their horizontal parts, since low segments know little of their tilt.
 double NormalAngle(const Plane& a, const Plane& b, SurfaceKind kind) {
@@ -33,6 +39,11 @@ void UpdateExtent(const SurfaceTrack& track, MapSurface* surface) {
     s.end = patch.Point({hi.x(), middle}).head<2>();
     s.z_min_m = patch.Point({lo.x(), lo.y()}).z();
     s.z_max_m = patch.Point({lo.x(), hi.y()}).z();
+    s.cells.clear();
+    for (const Eigen::Vector2f& at : patch.cells()) {
+      const Eigen::Vector2d c = at.cast<double>();
+      s.cells.emplace_back(static_cast<float>(c.x() - lo.x()), static_cast<float>(patch.Point(c).z()));
+    }
     return;
   }
   s.z_min_m = s.z_max_m = track.sum.centroid().z();
@@ -103,6 +114,19 @@ double SurfaceDistance(const SurfacePatch& a, const SurfacePatch& b, const Mappe
     worst_m = std::max(worst_m, offset_m);
   }
   return worst_m <= options.merge_distance_m ? 0.5 * sum_m : kApart;
+}
+
+bool FitOnePlane(const SurfaceTrack& a, const SurfaceTrack& b, const MapperOptions& options) {
+  PlaneStats both = a.sum;
+  both.Add(b.sum);
+  const Eigen::Vector3d& towards = a.patch.plane().n;
+  const Plane joint = FitPlane(both, towards).plane;
+  const double max_off_m = kMaxJointOff * options.merge_distance_m;
+  const auto fits = [&](const PlaneStats& sum) {
+    const double own_m = FitPlane(sum, towards).rms_m, joint_m2 = MeanSquareDistance(sum, joint);
+    return joint_m2 - own_m * own_m <= max_off_m * max_off_m;
+  };
+  return fits(a.sum) && fits(b.sum);
 }
 
 bool IsEcho(const MapSurface& b, const SurfacePatch& b_patch, const MapSurface& a, const SurfacePatch& a_patch) {

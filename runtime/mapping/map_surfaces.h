@@ -27,6 +27,9 @@ struct TrackedSurface {
 // too large, or a gap between them. Offsets are taken on the surfaces, never at the frame's origin, where an error in direction would pass for one in offset.
 [[nodiscard]] double SurfaceDistance(const SurfacePatch& a, const SurfacePatch& b, const MapperOptions& options);
 
+// Whether one plane fits the points of both about as well as each one's own does: nowhere near a step, however gently a plane could lean across it.
+[[nodiscard]] bool FitOnePlane(const SurfaceTrack& a, const SurfaceTrack& b, const MapperOptions& options);
+
 // Whether b is a poor fit to points of a: much weaker, roughly as a faces, close to it, and where a was seen itself. Nothing real can be there.
 [[nodiscard]] bool IsEcho(const MapSurface& b, const SurfacePatch& b_patch, const MapSurface& a, const SurfacePatch& a_patch);
 

@@ -87,7 +87,7 @@ void Mapper::AddSegment(const Segment& segment, const Keyframe& keyframe) {
   for (size_t i = 0; i < graph_.surfaces.size(); ++i) {
     if (graph_.surfaces[i].observations.empty()) continue;
     const double distance_m = SurfaceDistance(tracks_[i].patch, candidate.track.patch, options_);
-    if (distance_m >= best_m) continue;
+    if (distance_m >= best_m || !FitOnePlane(tracks_[i], candidate.track, options_)) continue;
     best = i;
     best_m = distance_m;
   }
@@ -116,7 +116,7 @@ void Mapper::MergeDuplicates() {
     for (size_t k = i + 1; k < surfaces.size(); ++k) {
       if (surfaces[i].observations.empty()) break;
       if (surfaces[k].observations.empty()) continue;
-      if (std::isinf(SurfaceDistance(tracks_[i].patch, tracks_[k].patch, options_))) continue;
+      if (std::isinf(SurfaceDistance(tracks_[i].patch, tracks_[k].patch, options_)) || !FitOnePlane(tracks_[i], tracks_[k], options_)) continue;
       Absorb({surfaces[k], tracks_[k]}, graph_.keyframes, &surfaces[i], &tracks_[i]);
       Empty(k);
       k = i;  // the grown surface may reach others

@@ -66,6 +66,8 @@ struct MapSurface {
   // Cells of 0.1 m x 0.1 m of the surface that hold points: what was really seen of it. area_m2 = 0.01 * number of cells. Kept once per
   // surface, fixed to the first keyframe that saw it: when poses change, all cells follow that keyframe.
   double area_m2 = 0;
+  // Walls: where those cells are, (distance from `start` towards `end`, height).
+  std::vector<Eigen::Vector2f> cells;
 
   [[nodiscard]] double length_m() const { return (end - start).norm(); }
 };

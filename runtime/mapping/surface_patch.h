@@ -34,7 +34,8 @@ class SurfacePatch {
   // Bounds of what was marked.
   [[nodiscard]] const Eigen::Vector2d& lo() const { return lo_; }
   [[nodiscard]] const Eigen::Vector2d& hi() const { return hi_; }
-  // The first point marked in every cell, in that order.
+  // Coordinates of the first point marked in every cell, in that order; and the points.
+  [[nodiscard]] const std::vector<Eigen::Vector2f>& cells() const { return cells_; }
   [[nodiscard]] std::vector<Eigen::Vector3d> CellPoints() const;
   [[nodiscard]] double area_m2() const;
   // Share of b's cells that lie within distance_m of this plane and on or next to one of this patch's cells.

@@ -210,4 +210,21 @@ MapView ViewMap(const SGraph& map, const MatcherOptions& options) {
   return view;
 }
 
+MapView Scaled(MapView view, double scale) {
+  for (MapWall& wall : view.walls) {
+    wall.start *= scale;
+    wall.end *= scale;
+    wall.length_m *= scale;
+  }
+  view.wall_length_m *= scale;
+  const Eigen::Vector3d factors(scale, scale, 1);
+  for (MapRay& ray : view.rays) {
+    const Eigen::Vector3d way = factors.cwiseProduct(ray.range_m * ray.direction);
+    ray.origin = factors.cwiseProduct(ray.origin);
+    ray.range_m = way.norm();
+    ray.direction = way / ray.range_m;
+  }
+  return view;
+}
+
 }  // namespace plumb::runtime

@@ -49,4 +49,7 @@ struct MapView {
 // Deterministic. Linear in points, plus rays x walls.
 [[nodiscard]] MapView ViewMap(const SGraph& map, const MatcherOptions& options);
 
+// The view of a building `scale` times as large in x and y, about the view's middle.
+[[nodiscard]] MapView Scaled(MapView view, double scale);
+
 }  // namespace plumb::runtime

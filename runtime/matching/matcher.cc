@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 #include <oneapi/tbb/parallel_for.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "runtime/matching/hypotheses.h"
 #include "runtime/matching/mirror.h"
@@ -39,6 +41,18 @@ class PoseSearch {
       candidates[i].rays = JudgeRays(plan, map, candidates[i].fit.pose, options);
     });
     return SortAndMerge(std::move(candidates));
+  }
+
+  // Log-likelihood that the candidate's place gains at most in a plan of another scale.
+  [[nodiscard]] double ScaledLikelihood(const MapView& map, const Candidate& candidate) const {
+    double best = -1e300;
+    for (const double scale : {1 - options.accept_scale_error, 1 + options.accept_scale_error}) {
+      const MapView scaled = Scaled(map, scale);
+      PlanarPose pose = RefineOnWalls(plan, scaled, candidate.fit.pose).pose;
+      pose.z_m = candidate.fit.pose.z_m;
+      best = std::max(best, JudgeRays(plan, scaled, pose, options).log_likelihood);
+    }
+    return best;
   }
 
   const PlanIndex plan;
@@ -93,21 +107,33 @@ class PoseSearch {
     return candidates;
   }
 
-  // Where the plan's own symmetries take the best: each must be beaten explicitly.
+  // Where the plan's own symmetries take the best, forth and back: each must be beaten explicitly.
   [[nodiscard]] std::vector<PlanarPose> Aliases(const std::vector<Candidate>& sorted) const {
     std::vector<PlanarPose> poses;
-    const Eigen::Vector3d& origin = plan.plan().origin;
     for (size_t i = 0; i < std::min(sorted.size(), kAliasedFinalists); ++i) {
+      const PlanarPose& pose = sorted[i].fit.pose;
       for (const Alias& alias : plan.plan().aliases) {
-        const PlanarPose& pose = sorted[i].fit.pose;
-        PlanarPose turn;
-        turn.yaw_rad = alias.yaw_rad;
-        // Aliases are given in the plan frame, poses in the mesh's.
-        const Eigen::Vector2d t = turn.rotation() * (pose.t_m + origin.head<2>()) + alias.translation.head<2>() - origin.head<2>();
-        poses.push_back({WrapAngle(pose.yaw_rad + alias.yaw_rad), t, pose.z_m + alias.translation.z()});
+        poses.push_back(Aliased(pose, alias.yaw_rad, alias.translation));
+        const Eigen::AngleAxisd back(-alias.yaw_rad, Eigen::Vector3d::UnitZ());
+        if (!IsInvolution(alias)) poses.push_back(Aliased(pose, -alias.yaw_rad, -(back * alias.translation)));
       }
     }
     return poses;
+  }
+
+  // x -> Rz(yaw) x + translation of a pose. The motion is given in the plan frame, the pose in the mesh's.
+  [[nodiscard]] PlanarPose Aliased(const PlanarPose& pose, double yaw_rad, const Eigen::Vector3d& translation) const {
+    const Eigen::Vector3d& origin = plan.plan().origin;
+    PlanarPose turn;
+    turn.yaw_rad = yaw_rad;
+    const Eigen::Vector2d t = turn.rotation() * (pose.t_m + origin.head<2>()) + translation.head<2>() - origin.head<2>();
+    return {WrapAngle(pose.yaw_rad + yaw_rad), t, pose.z_m + translation.z()};
+  }
+
+  // A half turn is its own inverse.
+  [[nodiscard]] static bool IsInvolution(const Alias& alias) {
+    constexpr double kHalfTurn_rad = 0.01, kSameHeight_m = 0.01;
+    return std::abs(alias.yaw_rad) > std::numbers::pi - kHalfTurn_rad && std::abs(alias.translation.z()) < kSameHeight_m;
   }
 };
 
@@ -136,6 +162,7 @@ std::string MatcherOptions::Check() const {
     return bad("accept_min_consistent_ratio", accept_min_consistent_ratio, "in [0, 1]");
   }
   if (!(vouch_explained_ratio > 0)) return bad("vouch_explained_ratio", vouch_explained_ratio, "positive");
+  if (!(vouch_sure_nats >= vouch_lead_nats)) return bad("vouch_sure_nats", vouch_sure_nats, "at least vouch_lead_nats");
   if (!(vouch_lead_ratio > 0)) return bad("vouch_lead_ratio", vouch_lead_ratio, "positive");
   if (!(vouch_nearly_all_ratio > 0)) return bad("vouch_nearly_all_ratio", vouch_nearly_all_ratio, "positive");
   if (!(vouch_lead_nats > 0)) return bad("vouch_lead_nats", vouch_lead_nats, "positive");
@@ -180,9 +207,12 @@ MatchResult Matcher::Match(const SGraph& map) const {
   }
   const std::vector<Candidate> finalists = search.Finalists(view);
   const AGraph& plan = search.plan.plan();
-  result = Decide(finalists, view, plan, search.options);
+  WrongPlans wrong;
+  if (!finalists.empty() && !WallsTellScale(finalists.front().fit, search.options)) wrong.scaled = search.ScaledLikelihood(view, finalists.front());
+  result = Decide(finalists, view, plan, search.options, wrong);
   if (result.verdict != MatchResult::Verdict::kUnique) return result;
-  return Decide(finalists, view, plan, search.options, impl_->MirroredLikelihood(view, finalists.front().fit.pose));
+  wrong.mirrored = impl_->MirroredLikelihood(view, finalists.front().fit.pose);
+  return Decide(finalists, view, plan, search.options, wrong);
 }
 
 double Matcher::Score(const SGraph& map, const Eigen::Isometry3d& T_plan_map) const {

@@ -74,13 +74,21 @@ bool RaysVouch(const std::vector<Candidate>& sorted, double mirrored, const Matc
   for (size_t i = 1; i < sorted.size(); ++i) rival = std::max(rival, sorted[i].rays.log_likelihood);
   const double lead = best.log_likelihood - rival;
   return best.explained_ratio >= options.vouch_explained_ratio && lead >= options.vouch_lead_nats &&
-         (lead >= options.vouch_lead_ratio * best.log_likelihood || best.explained_ratio >= options.vouch_nearly_all_ratio);
+         (lead >= options.vouch_lead_ratio * best.log_likelihood || lead >= options.vouch_sure_nats ||
+          best.explained_ratio >= options.vouch_nearly_all_ratio);
+}
+
+bool WallsTellScale(const WallFit& fit, const MatcherOptions& options) {
+  return std::abs(fit.scale_error) + 2 * fit.sigma_scale <= options.accept_scale_error;
 }
 
 std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, int required_planes, bool rays_vouch,
-                  const MatcherOptions& options) {
+                  const std::optional<double>& scaled, const MatcherOptions& options) {
   const WallFit& fit = candidate.fit;
-  if (rays_vouch) required_planes = std::min(required_planes, options.vouch_min_planes);
+  if (rays_vouch) {
+    const bool nearly_all = candidate.rays.explained_ratio >= options.vouch_nearly_all_ratio && candidate.rays.through_ratio <= options.accept_max_through_ratio;
+    required_planes = std::min(required_planes, options.vouch_min_planes - (nearly_all ? 1 : 0));
+  }
   const double max_sigma_xy_m = rays_vouch ? options.vouch_sigma_xy_m : options.accept_sigma_xy_m;
   if (hypothesis.sigma_xy_m > max_sigma_xy_m || hypothesis.sigma_yaw_rad > options.accept_sigma_yaw_rad) {
     return "too few walls agree to fix the position in every direction";
@@ -94,14 +102,15 @@ std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, int 
   if (candidate.rays.through_ratio > (rays_vouch ? options.vouch_max_through_ratio : options.accept_max_through_ratio)) {
     return fmt::format("{:.1f} % of the rays went through walls of the plan", 100 * candidate.rays.through_ratio);
   }
-  if (std::abs(fit.scale_error) + 2 * fit.sigma_scale > options.accept_scale_error) {
+  const bool rays_tell_scale = scaled && candidate.rays.log_likelihood - *scaled >= options.vouch_lead_nats;
+  if (!rays_tell_scale && !WallsTellScale(fit, options)) {
     return fmt::format("the scale is {:+.1f} +- {:.1f} % off the plan's", 100 * fit.scale_error, 100 * fit.sigma_scale);
   }
   return {};
 }
 
 MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, const AGraph& plan, const MatcherOptions& options,
-                   double mirrored) {
+                   const WrongPlans& wrong) {
   MatchResult result;
   if (sorted.empty()) {
     result.reason = "no pose in the plan puts the map's walls on planned ones";
@@ -109,19 +118,19 @@ MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, con
   }
   const size_t n = std::min(sorted.size(), static_cast<size_t>(options.keep_hypotheses));
   for (size_t i = 0; i < n; ++i) result.hypotheses.push_back(ToHypothesis(sorted[i], map, plan.origin));
-  const bool rays_vouch = RaysVouch(sorted, mirrored, options);
+  const bool rays_vouch = RaysVouch(sorted, wrong.mirrored, options);
   if (rays_vouch) SetSigmas(sorted.front().fit.place_information, result.hypotheses.front());
-  SetProbabilities(result, std::max(0.0, mirrored));
+  SetProbabilities(result, std::max(0.0, wrong.mirrored));
   const Hypothesis& best = result.hypotheses.front();
   if (best.log_likelihood < options.accept_margin_nats) {
     result.reason = fmt::format("the best pose is no better than a place outside the plan ({:+.1f} nats)", best.log_likelihood);
     return result;
   }
-  if (best.log_likelihood - mirrored < options.accept_margin_nats) {
-    result.reason = fmt::format("a mirror image of the plan fits about as well ({:+.1f} nats)", mirrored - best.log_likelihood);
+  if (best.log_likelihood - wrong.mirrored < options.accept_margin_nats) {
+    result.reason = fmt::format("a mirror image of the plan fits about as well ({:+.1f} nats)", wrong.mirrored - best.log_likelihood);
     return result;
   }
-  result.reason = Doubt(sorted.front(), best, RequiredPlanes(plan.rooms.size(), options), rays_vouch, options);
+  result.reason = Doubt(sorted.front(), best, RequiredPlanes(plan.rooms.size(), options), rays_vouch, wrong.scaled, options);
   if (!result.reason.empty()) return result;
   const auto rivals = std::count_if(result.hypotheses.begin() + 1, result.hypotheses.end(), [&](const Hypothesis& h) {
     return best.log_likelihood - h.log_likelihood < options.accept_margin_nats;

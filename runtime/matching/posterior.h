@@ -1,6 +1,7 @@
 // From judged poses to a verdict.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,6 +17,12 @@ struct Candidate {
   StoreyId storey;
 };
 
+// Log-likelihoods of the best poses in plans that are not the building's.
+struct WrongPlans {
+  double mirrored = 0;           // in the plan's mirror image; "outside the plan" is at least as likely
+  std::optional<double> scaled;  // near the best pose in the plan larger or smaller by accept_scale_error; none: not tried
+};
+
 // Two poses of one map that no one would call the same place.
 [[nodiscard]] bool Distinct(const Candidate& a, const Candidate& b);
 
@@ -23,9 +30,8 @@ struct Candidate {
 [[nodiscard]] std::vector<Candidate> SortAndMerge(std::vector<Candidate> candidates);
 
 // `sorted`: from SortAndMerge. Poses are given as T_plan_map, AGraph::origin and the map's centre put back.
-// `mirrored`: log-likelihood of the best pose in the plan's mirror image; "outside the plan" is at least as likely.
 [[nodiscard]] MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, const AGraph& plan,
-                                 const MatcherOptions& options, double mirrored = 0);
+                                 const MatcherOptions& options, const WrongPlans& wrong = {});
 
 // Planes that must agree in a plan of so many rooms: the more there are, the more of them look alike by chance.
 [[nodiscard]] int RequiredPlanes(size_t num_rooms, const MatcherOptions& options);
@@ -33,8 +39,11 @@ struct Candidate {
 // Whether the rays alone tell the place (see MatcherOptions). `sorted` must not be empty.
 [[nodiscard]] bool RaysVouch(const std::vector<Candidate>& sorted, double mirrored, const MatcherOptions& options);
 
-// Why this pose alone, rivals aside, is not yet trusted; empty if it is.
-[[nodiscard]] std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, int required_planes,
-                                bool rays_vouch, const MatcherOptions& options);
+// Whether the walls tell the building's size to within accept_scale_error.
+[[nodiscard]] bool WallsTellScale(const WallFit& fit, const MatcherOptions& options);
+
+// Why this pose alone, rivals aside, is not yet trusted; empty if it is. `scaled`: see WrongPlans.
+[[nodiscard]] std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, int required_planes, bool rays_vouch,
+                                const std::optional<double>& scaled, const MatcherOptions& options);
 
 }  // namespace plumb::runtime

@@ -73,7 +73,10 @@ struct JointProblem::Impl {
       const auto at = std::lower_bound(state.wall_ids.begin(), state.wall_ids.end(), surface.wall);
       double* wall = state.walls[static_cast<size_t>(at - state.wall_ids.begin())].data();
       const Face face = MakeFace(frames[surface.wall.index()], surface);
-      for (const Observation& o : map.surfaces[m.map_surface].observations) {
+      const std::vector<Observation>& observations = map.surfaces[m.map_surface].observations;
+      for (size_t i = 0; i < observations.size(); ++i) {
+        const Observation& o = observations[i];
+        if (m.IsMistaken(i)) continue;
         problem.AddResidualBlock(
             Cost<WallViewResidual, 3, kPoseSize, kPlaceSize, kNumWallParameters, 1>({PlaneView(o.stats, NoiseOf(options)), face}),
             &observation_loss, state.poses[o.keyframe].data(), state.place.data(), wall, &state.bias_m);

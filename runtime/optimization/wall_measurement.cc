@@ -66,7 +66,10 @@ std::vector<WallMeasurement> MeasureWalls(const SGraph& map, const AGraph& plan,
     if (!match.plan_surface.valid()) continue;
     const Surface& surface = plan.surfaces[match.plan_surface.index()];
     const Face face = MakeFace(frames[surface.wall.index()], surface);
-    for (const Observation& o : map.surfaces[match.map_surface].observations) {
+    const std::vector<Observation>& observations = map.surfaces[match.map_surface].observations;
+    for (size_t i = 0; i < observations.size(); ++i) {
+      const Observation& o = observations[i];
+      if (match.IsMistaken(i)) continue;
       AddView(PlaneView(o.stats, NoiseOf(options)), T_plan_map * T_map_kf[o.keyframe], face,
               walls.try_emplace(surface.wall, options.thickness_sigma_m).first->second);
     }

@@ -68,6 +68,7 @@ void SetGeometry(const runtime::SGraph& map, MapSurface& s, const std::vector<Ei
   s.start = c + lo * along;
   s.end = c + hi * along;
   s.area_m2 = (hi - lo) * (s.z_max_m - s.z_min_m);
+  FillCells(s);
 }
 
 // Adds one map surface; `sample` returns a seen point in the plan frame, views are the keyframes that see it.
@@ -132,6 +133,14 @@ double Random::Uniform(double lo, double hi) { return lo + (hi - lo) * static_ca
 double Random::Normal(double sigma) {
   const double u = Uniform(1e-12, 1.0), v = Uniform(0.0, 2 * std::numbers::pi);
   return sigma * std::sqrt(-2 * std::log(u)) * std::cos(v);
+}
+
+void FillCells(MapSurface& s) {
+  constexpr double kCell_m = 0.1;
+  s.cells.clear();
+  for (double u = 0.5 * kCell_m; u < s.length_m(); u += kCell_m) {
+    for (double z = s.z_min_m + 0.5 * kCell_m; z < s.z_max_m; z += kCell_m) s.cells.emplace_back(static_cast<float>(u), static_cast<float>(z));
+  }
 }
 
 Drive DriveThroughHouse(const AGraph& house, const DriveOptions& options) {

@@ -46,6 +46,9 @@ struct Drive {
 // Adds a flat thing between two points (free space to the left of start -> end), seen from all keyframes in front of it within `range_m`.
 void AddPatch(Drive& drive, const Eigen::Vector2d& start, const Eigen::Vector2d& end, double z_min_m, double z_max_m, double range_m, uint64_t seed);
 
+// Cells all over a wall's extent, as if every part of it had been seen.
+void FillCells(runtime::MapSurface& surface);
+
 // The true place of the map, moved by this much about the start: what a matcher's fix may look like.
 [[nodiscard]] Eigen::Isometry3d Disturbed(const Eigen::Isometry3d& T_plan_map, double dx_m, double dy_m, double dyaw_rad);
 

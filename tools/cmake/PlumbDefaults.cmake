@@ -9,6 +9,9 @@ if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "Build type" FORCE)
 endif()
 
+# As fast as -O3 here, and builds sooner.
+set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
+
 find_program(PLUMB_CCACHE ccache)
 if(PLUMB_CCACHE)
   set(CMAKE_CXX_COMPILER_LAUNCHER "${PLUMB_CCACHE}")

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <iterator>
 #include <memory>
+#include <numbers>
 
 #include "schema/agraph_json.h"
 #include "schema/agraph_reader.h"
@@ -20,6 +21,22 @@ struct InspectFlags {
 };
 
 std::string RoomName(const AGraph& g, RoomId id) { return id.valid() ? g.rooms[id.index()].name : std::string("outside"); }
+
+void AliasesToText(const AGraph& g, std::string& out) {
+  auto write = std::back_inserter(out);
+  for (size_t i = 0; i < g.aliases.size(); ++i) {
+    const Alias& a = g.aliases[i];
+    fmt::format_to(write, "\nalias {}: turned by {:.1f} deg, moved by ({:.2f}, {:.2f}, {:.2f}) m; {:.0f} % of {:.0f} m of wall sections coincide within {} m{}\n", i,
+                   a.yaw_rad * 180 / std::numbers::pi, a.translation.x(), a.translation.y(), a.translation.z(), 100 * a.overlap_ratio,
+                   a.section_length_m, a.tolerance_m, a.closed ? "" : "; other rooms tell");
+    for (size_t k = 0; k < a.rooms.size(); ++k) fmt::format_to(write, "  {} = {}\n", RoomName(g, a.rooms[k]), RoomName(g, a.twins[k]));
+  }
+  if (!g.look_alikes.empty()) fmt::format_to(write, "\nrooms that look alike from inside\n");
+  for (const LookAlikes& l : g.look_alikes) {
+    for (size_t k = 0; k < l.rooms.size(); ++k) fmt::format_to(write, "{}{}", k == 0 ? "  " : " = ", RoomName(g, l.rooms[k]));
+    fmt::format_to(write, "\n");
+  }
+}
 
 std::string GraphToText(const AGraph& g) {
   std::string out;
@@ -40,6 +57,7 @@ std::string GraphToText(const AGraph& g) {
       fmt::format_to(write, "  door {:>3}  {} - {}, {:.2f} m wide\n", i, RoomName(g, d.room_a), RoomName(g, d.room_b), d.width_m);
     }
   }
+  AliasesToText(g, out);
   return out;
 }
 

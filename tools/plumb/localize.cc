@@ -40,6 +40,7 @@ struct Results {
 Expected<Results> AddScans(const runtime::Recording& recording, const LocalizeFlags& flags, runtime::Localizer& localizer, Console& console) {
   Results results;
   Error last_error{ErrorCode::kBadScan, "no scan"};
+  bool said_deskew_off = false;
   for (size_t i = 0; i < recording.size(); ++i) {
     if (flags.max_duration_s > 0 && recording.stamp_s(i) - recording.stamp_s(0) > flags.max_duration_s) break;
     const auto scan = recording.Read(i);
@@ -47,6 +48,10 @@ Expected<Results> AddScans(const runtime::Recording& recording, const LocalizeFl
       console.Error(scan.error().message + "; skipped");
       last_error = scan.error();
       continue;
+    }
+    if (scan->time_s.empty() && !said_deskew_off) {
+      console.Info("scans without per-point time: deskew off");
+      said_deskew_off = true;
     }
     std::optional<runtime::Odometry::GivenMotion> given;
     if (!flags.no_odometry) given = runtime::GivenMotionDuring(*scan, recording.odometry());

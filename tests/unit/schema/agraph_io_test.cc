@@ -8,6 +8,7 @@
 #include "schema/agraph_reader.h"
 #include "schema/agraph_writer.h"
 #include "tests/support/house.h"
+#include "tests/support/temporary_folder.h"
 
 namespace plumb {
 namespace {
@@ -25,7 +26,8 @@ TEST(AGraphIo, ReadsBackWhatItWrote) {
 TEST(AGraphIo, KeepsArcsAliasesAndFactors) {
   AGraph house = test::MakeHouse();
   house.surfaces[0].arc = Arc{{1, 2}, 3, 0.5, -1.25};
-  house.aliases.push_back({3.14, {1, 2, 0}, 0.9, StoreyId(0), StoreyId(0)});
+  house.aliases.push_back({3.14, {1, 2, 0}, 0.9, StoreyId(0), StoreyId(0), {RoomId(0)}, {RoomId(1)}, 0.06, 12.5, true, {ElementId(2)}});
+  house.look_alikes.push_back({{RoomId(0), RoomId(2)}});
   house.factors.push_back({FactorKind::kRoomSurfaces, {0, 0, 1, 2, 3}});
   house.open_boundaries.push_back({StoreyId(0), RoomId(1), RoomId(2), {1, 2}, {3, 4}});
   const Expected<AGraph> read = ReadAGraph(WriteAGraph(house));
@@ -33,10 +35,28 @@ TEST(AGraphIo, KeepsArcsAliasesAndFactors) {
   ASSERT_TRUE(read->surfaces[0].arc.has_value());
   EXPECT_EQ(read->surfaces[0].arc->sweep_rad, -1.25);
   EXPECT_EQ(read->aliases[0].overlap_ratio, 0.9);
+  EXPECT_EQ(read->aliases[0].twins, house.aliases[0].twins);
+  EXPECT_EQ(read->aliases[0].section_length_m, 12.5);
+  EXPECT_TRUE(read->aliases[0].closed);
+  EXPECT_EQ(read->aliases[0].differences, house.aliases[0].differences);
+  EXPECT_EQ(read->look_alikes[0].rooms, house.look_alikes[0].rooms);
   EXPECT_EQ(read->factors[0].variables.size(), 5u);
   ASSERT_EQ(read->open_boundaries.size(), 1u);
   EXPECT_EQ(read->open_boundaries[0].room_b, RoomId(2));
   EXPECT_EQ(read->open_boundaries[0].end, Eigen::Vector2d(3, 4));
+}
+
+TEST(AGraphIo, RefusesAliasesOfRoomsThatAreNotThere) {
+  AGraph house = test::MakeHouse();
+  house.aliases.emplace_back();
+  house.aliases[0].rooms = {RoomId(0)};
+  EXPECT_EQ(ReadAGraph(WriteAGraph(house)).error().code, ErrorCode::kAGraphInconsistent);
+  house.aliases[0].twins = {RoomId(99)};
+  EXPECT_EQ(ReadAGraph(WriteAGraph(house)).error().code, ErrorCode::kAGraphInconsistent);
+  house.aliases[0].twins = {RoomId(1)};
+  EXPECT_TRUE(ReadAGraph(WriteAGraph(house)));
+  house.look_alikes.push_back({{RoomId(7)}});
+  EXPECT_EQ(ReadAGraph(WriteAGraph(house)).error().code, ErrorCode::kAGraphInconsistent);
 }
 
 TEST(AGraphIo, RefusesOtherFiles) {
@@ -102,9 +122,8 @@ TEST(AGraphIo, SurvivesFlippedBits) {
 TEST(AGraphIo, WritesTheSameBytesTwice) { EXPECT_EQ(WriteAGraph(test::MakeHouse()), WriteAGraph(test::MakeHouse())); }
 
 TEST(AGraphIo, LeavesNoTemporaryFileBehind) {
-  const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "agraph_io";
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
+  const test::TemporaryFolder temporary;
+  const std::filesystem::path folder = temporary.path();
   ASSERT_TRUE(WriteAGraphFile(test::MakeHouse(), folder / "house.agraph"));
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 1);
   EXPECT_TRUE(ReadAGraphFile(folder / "house.agraph"));

@@ -30,9 +30,27 @@ struct Scene {
     s.z_min_m = z_min_m;
     s.z_max_m = z_max_m;
     s.area_m2 = (end - start).norm() * (z_max_m - z_min_m);
-    s.observations.resize(1);
+    test::FillCells(s);
+    Observation o;  // centred on the patch
+    for (double z_m : {z_min_m, z_max_m}) {
+      for (const Eigen::Vector2d& at : {start, end}) o.stats.Add({at.x(), at.y(), z_m});
+    }
+    s.observations.push_back(o);
     map.surfaces.push_back(s);
     return s.id;
+  }
+  // Sees points on the vertical rectangle over [start, end] from a keyframe at `from`, plan frame.
+  void See(const Eigen::Vector3d& from, const Eigen::Vector2d& start, const Eigen::Vector2d& end, double z_min_m, double z_max_m) {
+    Keyframe keyframe;
+    keyframe.id = static_cast<uint32_t>(map.keyframes.size());
+    keyframe.T_map_kf.translation() = from;
+    for (double u = 0.02; u < 1; u += 0.05) {
+      for (double z_m = z_min_m + 0.03; z_m < z_max_m; z_m += 0.1) {
+        const Eigen::Vector2d at = start + u * (end - start);
+        keyframe.points.push_back((Eigen::Vector3d(at.x(), at.y(), z_m) - from).cast<float>());
+      }
+    }
+    map.keyframes.push_back(keyframe);
   }
   // The plan surface that a map surface went to; none if unmatched.
   SurfaceId Of(const AGraph& plan, uint32_t map_surface, const std::vector<WallDeviation>& known = {}) const {
@@ -131,6 +149,67 @@ TEST(MatchSurfaces, WallBehindWinsEvenIfTheCupboardStandsOnThePlannedLine) {
   const uint32_t wall = scene.Add({9.3, 0.3}, {9.3, 2.5}, 0.2, 2.5), front = scene.Add({9, 2.5}, {9, 5.5}, 0.2, 1.8);
   EXPECT_EQ(scene.Of(house, wall), SurfaceId(9));
   EXPECT_FALSE(scene.Of(house, front).valid());
+}
+
+// The front of low units as long as the wall, of which nothing but single points is seen above them.
+TEST(MatchSurfaces, WhatIsSeenPastIsNoWall) {
+  const AGraph house = test::MakeHouse();
+  const Eigen::Vector3d sensor(7, 3, 1);
+  Scene units;
+  const uint32_t front = units.Add({8.55, 0.2}, {8.55, 5.8}, 0.1, 1.4);
+  EXPECT_EQ(units.Of(house, front), SurfaceId(9));  // nothing speaks against it yet
+  units.See(sensor, {8.55, 0.2}, {8.55, 5.8}, 0.1, 1.4);
+  EXPECT_EQ(units.Of(house, front), SurfaceId(9));
+  units.See(sensor, {9, 0.2}, {9, 5.8}, 1.6, 2.4);
+  EXPECT_FALSE(units.Of(house, front).valid());
+
+  Scene deviated;  // the same front as high as the room, and a view into the next room through an opening beside it
+  const uint32_t wall = deviated.Add({8.55, 0.2}, {8.55, 5.8}, 0.1, 2.4);
+  deviated.See(sensor, {8.55, 0.2}, {8.55, 5.8}, 0.1, 2.4);
+  deviated.See(sensor, {9.5, 8}, {9.5, 9.5}, 0.1, 2.4);
+  EXPECT_EQ(deviated.Of(house, wall), SurfaceId(9));
+}
+
+TEST(MatchSurfaces, PanesJoinedAcrossAStripOfWallAreNoWall) {
+  AGraph house = test::MakeHouse();
+  for (double y_m : {1.6, 4.2}) {  // in C's east wall
+    Window w;
+    w.wall = WallId(1);
+    w.position = {9.15, y_m, 0.9};
+    w.width_m = w.height_m = 1.2;
+    house.windows.push_back(w);
+  }
+  Scene scene;
+  const uint32_t panes = scene.Add({9.1, 1.0}, {9.1, 4.8}, 0.9, 2.1);
+  EXPECT_FALSE(scene.Of(house, panes).valid());
+  Scene displaced;  // the whole wall 0.1 m further out
+  const uint32_t wall = displaced.Add({9.1, 0.2}, {9.1, 5.8}, 0.2, 2.4);
+  EXPECT_EQ(displaced.Of(house, wall), SurfaceId(9));
+}
+
+// A pane that the map has joined to the wall far beside it, because a plane can lean across both.
+TEST(MatchSurfaces, ViewsOfAPaneInAPatchOfWallAreMistaken) {
+  AGraph house = test::MakeHouse();
+  Window w;  // in C's east wall
+  w.wall = WallId(1);
+  w.position = {9.15, 1.2, 0.4};
+  w.width_m = 1.2;
+  w.height_m = 2.0;
+  house.windows.push_back(w);
+  Scene scene;
+  const uint32_t patch = scene.Add({9.05, 0.6}, {8.98, 5.8}, 0.4, 2.4);  // its own view is centred beside the window
+  Observation pane;
+  for (double y_m : {0.8, 1.6}) {
+    for (double z_m : {0.6, 2.0}) pane.stats.Add({9.1, y_m, z_m});
+  }
+  scene.map.surfaces[patch].observations.push_back(pane);
+  const auto matches = MatchSurfaces(scene.map, house, Eigen::Isometry3d::Identity(), {});
+  ASSERT_EQ(matches.size(), 1u);
+  EXPECT_EQ(matches[0].plan_surface, SurfaceId(9));
+  EXPECT_FALSE(matches[0].IsMistaken(0));
+  EXPECT_TRUE(matches[0].IsMistaken(1));
+  scene.map.surfaces[patch].observations.erase(scene.map.surfaces[patch].observations.begin());
+  EXPECT_FALSE(scene.Of(house, patch).valid());  // nothing of the wall is left
 }
 
 TEST(MatchSurfaces, SmallLowNicheBehindAWallIsNotTheWall) {

@@ -283,7 +283,7 @@ TEST(OptimizeJointly, StartsAsAFailureAndNamesBadInput) {
   EXPECT_FALSE(empty.converged);
   EXPECT_EQ(empty.message, "the map has no keyframes");
   const Drive drive = test::DriveThroughHouse(house, {});
-  EXPECT_FALSE(OptimizeJointly(drive.map, house, {{0, SurfaceId(999), RoomId(), 0, 0}}, drive.T_plan_map).converged);
+  EXPECT_FALSE(OptimizeJointly(drive.map, house, {{0, SurfaceId(999), RoomId(), 0, 0, {}}}, drive.T_plan_map).converged);
   JointOptions options;
   options.correlation = 0.5;
   EXPECT_EQ(options.Check(), "JointOptions.correlation = 0.5; must be >= 1");

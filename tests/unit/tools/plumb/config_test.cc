@@ -4,9 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 
 #include "schema/files.h"
+#include "tests/support/temporary_folder.h"
 
 namespace plumb::tools {
 namespace {
@@ -25,8 +25,6 @@ class Config : public ::testing::Test {
     simulate->add_flag("--quiet", quiet_);
     app_.add_subcommand("localize");
   }
-  void TearDown() override { std::filesystem::remove(path_); }
-
   Expected<std::vector<std::string>> Expand(const std::string& toml) {
     EXPECT_TRUE(WriteFileAtomically(path_, std::string_view(toml)));
     return ExpandConfig(app_, {"simulate", "a.agraph", "--config", path_, "--seed", "9"});
@@ -36,7 +34,8 @@ class Config : public ::testing::Test {
   std::string plan_, sensor_ = "vlp16";
   int seed_ = 1;
   bool quiet_ = false;
-  std::string path_ = ::testing::TempDir() + "/plumb_config_test.toml";
+  test::TemporaryFolder folder_;
+  std::string path_ = folder_ / "config.toml";
 };
 
 TEST_F(Config, KeysBecomeFlagsBeforeThoseOfTheCommandLine) {

@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "schema/files.h"
+#include "tests/support/temporary_folder.h"
 #include "tools/run/ply.h"
 #include "tools/run/run_info.h"
 
@@ -86,8 +87,8 @@ TEST(ReadRun, NamesTheMissingFile) {
 }
 
 TEST(ReadRun, TakesARunWithoutAFix) {
-  const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "run_without_fix";
-  std::filesystem::create_directories(folder);
+  const test::TemporaryFolder temporary;
+  const std::filesystem::path folder = temporary.path();
   const auto write = [&](const char* name, const std::string& text) {
     ASSERT_TRUE(WriteFileAtomically((folder / name).string(), std::string_view(text)));
   };
@@ -101,7 +102,6 @@ TEST(ReadRun, TakesARunWithoutAFix) {
   EXPECT_EQ(run->verdicts.size(), 1u);
   std::filesystem::remove(folder / "trajectory.tum");
   EXPECT_FALSE(ReadRun(folder.string()));
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Ply, HasOneRecordOfThreeDoublesPerPoint) {

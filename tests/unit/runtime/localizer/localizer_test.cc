@@ -1,0 +1,163 @@
+#include "runtime/localizer/localizer.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "tests/support/house.h"
+#include "tests/support/plans.h"
+#include "tests/support/synthetic_lidar.h"
+
+namespace plumb::runtime {
+namespace {
+
+constexpr double kPeriod_s = 0.1;
+
+test::SyntheticLidarOptions Sparse() {
+  test::SyntheticLidarOptions options;
+  options.azimuths = 900;
+  return options;
+}
+
+struct Errors {
+  double position_m, yaw_rad;
+};
+Errors ErrorOf(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth) {
+  const Eigen::Isometry3d off = truth.inverse() * estimate;
+  return {off.translation().norm(), std::abs(std::atan2(off.linear()(1, 0), off.linear()(0, 0)))};
+}
+
+// A localizer on a drive, `tilt` turning the sensor against the robot.
+struct Session {
+  explicit Session(const AGraph& plan, const AGraph& built, const Eigen::Quaterniond& tilt = Eigen::Quaterniond::Identity())
+      : localizer(plan), lidar(built, Sparse()), T_base_lidar(tilt) {}
+
+  [[nodiscard]] Eigen::Isometry3d TruthAt(double t_s) const { return drive.At(t_s) * T_base_lidar; }
+  ScanVerdict Next() {
+    const Scan scan = lidar.Sweep([this](double t_s) { return TruthAt(t_s); }, time_s);
+    time_s += kPeriod_s;
+    return localizer.AddScan(scan, std::nullopt);
+  }
+  ScanVerdict NextEmpty() {
+    Scan scan;
+    scan.stamp_s = time_s;
+    time_s += kPeriod_s;
+    return localizer.AddScan(scan, std::nullopt);
+  }
+  // Scans until the verdict, or 0 if that is not reached by `end_s`.
+  double Until(Verdict verdict, double end_s = 20) {
+    while (time_s + kPeriod_s < std::min(end_s, drive.duration_s())) {
+      const ScanVerdict v = Next();
+      if (v.verdict == verdict) return v.stamp_s;
+    }
+    return 0;
+  }
+
+  Localizer localizer;
+  test::SyntheticLidar lidar;
+  Eigen::Isometry3d T_base_lidar;
+  test::Drive drive = test::HouseDrive();
+  double time_s = 0;
+};
+
+TEST(Localizer, FindsAndTracksTheRobotFromNothing) {
+  const AGraph house = test::MakeHouse();
+  Session run(house, house);
+  const ScanVerdict first = run.Next();
+  EXPECT_EQ(first.verdict, Verdict::kSearching);
+  EXPECT_FALSE(first.T_plan_lidar);
+  EXPECT_FALSE(run.localizer.T_plan_map());
+  EXPECT_TRUE(run.localizer.SmoothedTrajectory().empty());
+  ASSERT_GT(run.Until(Verdict::kLocalized), 0);
+  int tracked = 0;
+  for (; run.time_s + kPeriod_s < run.drive.duration_s(); ++tracked) {
+    const ScanVerdict v = run.Next();
+    ASSERT_EQ(v.verdict, Verdict::kLocalized);
+    ASSERT_TRUE(v.T_plan_lidar);
+    const Errors error = ErrorOf(*v.T_plan_lidar, run.TruthAt(v.stamp_s));
+    EXPECT_LT(error.position_m, 0.06) << "at " << v.stamp_s;
+    EXPECT_LT(error.yaw_rad, 0.01) << "at " << v.stamp_s;
+  }
+  EXPECT_GT(tracked, 50);
+  run.localizer.Finish();
+  const Trajectory smoothed = run.localizer.SmoothedTrajectory();
+  ASSERT_EQ(smoothed.size(), static_cast<size_t>(std::lround(run.time_s / kPeriod_s)));  // every scan, those before the fix as well
+  for (const StampedPose& pose : smoothed) EXPECT_LT(ErrorOf(pose.T, run.TruthAt(pose.stamp_s)).position_m, 0.03) << "at " << pose.stamp_s;
+}
+
+// A lidar mounted, or a robot started, at a tilt: the poses come out in the level plan frame all the same.
+TEST(Localizer, LevelsASensorThatLeans) {
+  const AGraph house = test::MakeHouse();
+  Session run(house, house, Eigen::Quaterniond(Eigen::AngleAxisd(0.12, Eigen::Vector3d(1, 0.4, 0).normalized())));
+  ASSERT_GT(run.Until(Verdict::kLocalized), 0);
+  for (int i = 0; i < 30; ++i) run.Next();
+  const ScanVerdict v = run.Next();
+  ASSERT_TRUE(v.T_plan_lidar);
+  const Eigen::Isometry3d truth = run.TruthAt(v.stamp_s);
+  EXPECT_LT(ErrorOf(*v.T_plan_lidar, truth).position_m, 0.06);
+  EXPECT_LT(Eigen::AngleAxisd(truth.linear().transpose() * v.T_plan_lidar->linear()).angle(), 0.02);
+}
+
+TEST(Localizer, SaysLostWhenBlindAndKeepsAPose) {
+  const AGraph house = test::MakeHouse();
+  Session run(house, house);
+  ASSERT_GT(run.Until(Verdict::kLocalized), 0);
+  const double blind_from_s = run.time_s;
+  ScanVerdict v;
+  for (int i = 0; i < 12; ++i) v = run.NextEmpty();
+  EXPECT_EQ(v.verdict, Verdict::kLost);
+  EXPECT_TRUE(v.T_plan_lidar);
+  EXPECT_FALSE(run.localizer.T_plan_map());
+  // Sight comes back where it went: the robot is found again.
+  run.time_s = blind_from_s;
+  std::vector<Verdict> verdicts;
+  for (int i = 0; i < 100 && (verdicts.empty() || verdicts.back() != Verdict::kLocalized); ++i) verdicts.push_back(run.Next().verdict);
+  ASSERT_EQ(verdicts.back(), Verdict::kLocalized);
+  EXPECT_THAT(verdicts, testing::Not(testing::Contains(Verdict::kSearching)));  // lost until found
+  EXPECT_LT(ErrorOf(*run.Next().T_plan_lidar, run.TruthAt(run.time_s - kPeriod_s)).position_m, 0.06);
+}
+
+TEST(Localizer, KeepsSearchingInAPlanOfAnotherBuilding) {
+  const AGraph house = test::MakeHouse(), other = test::MakeRandomPlan(3, 4, 3);
+  Session run(other, house);
+  EXPECT_EQ(run.Until(Verdict::kLocalized, 10), 0);
+  EXPECT_FALSE(run.localizer.last_match().reason.empty());
+}
+
+TEST(Localizer, GivesTheSamePosesForTheSameScans) {
+  const AGraph house = test::MakeHouse();
+  Session a(house, house), b(house, house);
+  for (int i = 0; i < 80; ++i) {
+    const ScanVerdict va = a.Next(), vb = b.Next();
+    ASSERT_EQ(va.verdict, vb.verdict);
+    ASSERT_EQ(va.T_plan_lidar.has_value(), vb.T_plan_lidar.has_value());
+    if (va.T_plan_lidar) { ASSERT_EQ(va.T_plan_lidar->matrix(), vb.T_plan_lidar->matrix()); }
+  }
+}
+
+TEST(LocalizerOptions, CheckNamesFieldValueAndRule) {
+  EXPECT_EQ(LocalizerOptions{}.Check(), "");
+  LocalizerOptions options;
+  options.lost_after = 0;
+  EXPECT_EQ(options.Check(), "LocalizerOptions.lost_after = 0; must be >= 1");
+  options = {};
+  options.matcher.vote_cell_m = -1;
+  EXPECT_EQ(options.Check(), "MatcherOptions.vote_cell_m = -1; must be in [0.02, 1]");
+}
+
+TEST(GivenMotionDuring, IsNoneWhereTheOdometryDoesNotCoverTheSweep) {
+  Scan scan;
+  scan.stamp_s = 10;
+  scan.time_s = {0, 0.05f, 0.1f};
+  const auto at = [](double t_s, double x_m) { return StampedPose{t_s, Eigen::Isometry3d(Eigen::Translation3d(x_m, 0, 0))}; };
+  EXPECT_FALSE(GivenMotionDuring(scan, {}));
+  EXPECT_FALSE(GivenMotionDuring(scan, {at(9.95, 0), at(10.05, 1)}));
+  const auto given = GivenMotionDuring(scan, {at(9.95, 0), at(10.05, 1), at(10.15, 2)});
+  ASSERT_TRUE(given);
+  EXPECT_NEAR((given->T_start.inverse() * given->T_end).translation().x(), 1.0, 1e-6);
+}
+
+}  // namespace
+}  // namespace plumb::runtime

@@ -58,19 +58,25 @@ void ReleaseSolids(PlanIr& plan) {
 #endif
 }
 
-// What checks of the graph know by GUID only is shown where it stands in the source.
-void AddLocated(const PlanIr& plan, const std::vector<Diagnostic>& found, DiagnosticSink& sink) {
-  std::map<std::string_view, const SourceLocation*> by_guid;
+// Where in the source things stand, by GUID.
+using Locations = std::map<std::string, SourceLocation, std::less<>>;
+Locations LocationsIn(const PlanIr& plan) {
+  Locations by_guid;
   const auto add = [&by_guid](const auto& items) {
-    for (const auto& item : items) by_guid.emplace(item.guid, &item.location);
+    for (const auto& item : items) by_guid.emplace(item.guid, item.location);
   };
   add(plan.elements);
   add(plan.openings);
   add(plan.spaces);
   add(plan.storeys);
+  return by_guid;
+}
+
+// What checks of the graph know by GUID only is shown where it stands in the source.
+void AddLocated(const Locations& by_guid, const std::vector<Diagnostic>& found, DiagnosticSink& sink) {
   for (const Diagnostic& d : found) {
     const auto known = d.location.guid.empty() ? by_guid.end() : by_guid.find(d.location.guid);
-    sink.Emit(d.kind, known == by_guid.end() ? d.location : *known->second, d.message, d.hint);
+    sink.Emit(d.kind, known == by_guid.end() ? d.location : known->second, d.message, d.hint);
   }
 }
 
@@ -81,10 +87,11 @@ std::optional<AGraph> Run(const std::string& path, const CompileOptions& options
   if (!built) return std::nullopt;
   AGraph graph = std::move(built->graph);
   EmitMesh(*plan, graph);
+  const Locations locations = LocationsIn(*plan);
   ReleaseSolids(*plan);
   MoveToPlanFrame(*plan, graph);
   ForecastAliases({}, graph);
-  AddLocated(*plan, ValidateGraph(graph), sink);
+  AddLocated(locations, ValidateGraph(graph), sink);
   EmitProvenance(*plan, Recorded(options), sink, graph);
   return graph;
 }

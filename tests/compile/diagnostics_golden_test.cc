@@ -8,6 +8,8 @@
 #include <filesystem>
 #include <functional>
 #include <map>
+#include <numbers>
+#include <set>
 
 #include "compiler/validate.h"
 #include "schema/agraph_reader.h"
@@ -29,6 +31,25 @@ AGraph Changed(const std::function<void(AGraph&)>& change) {
   return house;
 }
 
+// A half turn about (4.5, 3) takes rooms A and B onto B and A, as it seems.
+Alias AliasOf(const AGraph& g, bool closed) {
+  Alias alias;
+  alias.yaw_rad = std::numbers::pi;
+  alias.translation = {9, 6, 0};
+  alias.overlap_ratio = 0.97;
+  alias.from_storey = alias.to_storey = StoreyId(0);
+  alias.rooms = {RoomId(0), RoomId(1)};
+  alias.twins = {RoomId(1), RoomId(0)};
+  alias.tolerance_m = 0.06;
+  alias.section_length_m = 31;
+  alias.closed = closed;
+  alias.differences = {ElementId(g.elements.size() - 1)};
+  return alias;
+}
+
+// Kinds whose smallest input is too large to be stored; their own tests are in ifc_hostile_test.cc and rooms_test.cc.
+const std::set<std::string> kWithoutInput = {"PL1005", "PL7003"};
+
 using Maker = std::function<AGraph()>;
 
 // A-Graphs that no compilation gives.
@@ -47,6 +68,9 @@ const std::map<std::string, Maker>& Graphs() {
       {"PL7107", [] { return Changed([](AGraph& g) { g.rooms[0].surfaces.erase(g.rooms[0].surfaces.begin()); }); }},
       {"PL7108", [] { return Changed([](AGraph& g) { g.doorways[1].position.x() += 2; }); }},
       {"PL7109", [] { return Changed([](AGraph& g) { g.rooms[2].ceiling_z_m = -1; }); }},
+      {"PL7201", [] { return Changed([](AGraph& g) { g.aliases = {AliasOf(g, true)}; }); }},
+      {"PL7202", [] { return Changed([](AGraph& g) { g.aliases = {AliasOf(g, false)}; }); }},
+      {"PL7203", [] { return Changed([](AGraph& g) { g.look_alikes = {{{RoomId(0), RoomId(1)}}}; }); }},
       {"PL8005", [] { return Changed([](AGraph& g) { g.surfaces[3].wall = WallId(99); }); }},
   };
   return kGraphs;
@@ -110,7 +134,9 @@ class DiagnosticsGolden : public testing::TestWithParam<DiagnosticKind> {
 };
 
 TEST_P(DiagnosticsGolden, SmallestInputGivesTheText) {
-  const std::string code = CodeOf(GetParam()), input = Provide(code);
+  const std::string code = CodeOf(GetParam());
+  if (kWithoutInput.contains(code)) GTEST_SKIP() << "no input small enough to store provokes it";
+  const std::string input = Provide(code);
   ASSERT_FALSE(input.empty()) << "there is no " << code << ".ifc in " << kGoldens;
   ValidateOptions options;
   if (GetParam() == DiagnosticKind::kInternalError) options.compile.snap_radius_m = -1;  // as only a caller can

@@ -1,12 +1,19 @@
 #include "compiler/compile.h"
 
 #include <fmt/format.h>
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 
 #include <algorithm>
 #include <exception>
+#include <map>
+#include <string_view>
+#include <vector>
 
 #include "compiler/emit/emit.h"
 #include "compiler/frontends/ifc/ifc_frontend.h"
+#include "compiler/passes/alias_forecast.h"
 #include "compiler/passes/build_agraph.h"
 #include "compiler/source/source.h"
 #include "compiler/validate.h"
@@ -40,6 +47,32 @@ std::optional<PlanIr> ReadPlan(const std::string& path, DiagnosticSink& sink) {
   return ReadIfc(*source, sink);
 }
 
+// The solids are most of the memory and no longer needed: give it back before the file is put together.
+void ReleaseSolids(PlanIr& plan) {
+  plan.elements = {};
+  plan.openings = {};
+  plan.spaces = {};
+#ifdef __GLIBC__
+  malloc_trim(0);  // they are small blocks, which free alone keeps
+#endif
+}
+
+// What checks of the graph know by GUID only is shown where it stands in the source.
+void AddLocated(const PlanIr& plan, const std::vector<Diagnostic>& found, DiagnosticSink& sink) {
+  std::map<std::string_view, const SourceLocation*> by_guid;
+  const auto add = [&by_guid](const auto& items) {
+    for (const auto& item : items) by_guid.emplace(item.guid, &item.location);
+  };
+  add(plan.elements);
+  add(plan.openings);
+  add(plan.spaces);
+  add(plan.storeys);
+  for (const Diagnostic& d : found) {
+    const auto known = d.location.guid.empty() ? by_guid.end() : by_guid.find(d.location.guid);
+    sink.Emit(d.kind, known == by_guid.end() ? d.location : *known->second, d.message, d.hint);
+  }
+}
+
 std::optional<AGraph> Run(const std::string& path, const CompileOptions& options, DiagnosticSink& sink) {
   std::optional<PlanIr> plan = ReadPlan(path, sink);
   if (!plan) return std::nullopt;
@@ -47,8 +80,10 @@ std::optional<AGraph> Run(const std::string& path, const CompileOptions& options
   if (!built) return std::nullopt;
   AGraph graph = std::move(built->graph);
   EmitMesh(*plan, graph);
+  ReleaseSolids(*plan);
   MoveToPlanFrame(*plan, graph);
-  for (const Diagnostic& d : ValidateGraph(graph)) sink.Emit(d.kind, d.location, d.message, d.hint);
+  ForecastAliases({}, graph);
+  AddLocated(*plan, ValidateGraph(graph), sink);
   EmitProvenance(*plan, Recorded(options), sink, graph);
   return graph;
 }

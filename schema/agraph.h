@@ -18,7 +18,7 @@
 namespace plumb {
 
 inline constexpr uint32_t kSchemaMajor = 1;
-inline constexpr uint32_t kSchemaMinor = 0;
+inline constexpr uint32_t kSchemaMinor = 1;
 
 // As in agraph.fbs, same order.
 enum class ElementKind : uint8_t {
@@ -139,12 +139,23 @@ struct Mesh {
   std::vector<Triangle> triangles;
 };
 
-// A rigid motion x -> Rz(yaw) x + translation under which the plan's walls fall on themselves.
+// A rigid motion x -> Rz(yaw) x + translation under which rooms of the plan fall on rooms that a LiDAR cannot tell from them. It goes both
+// ways: a robot in `twins` may as well be in `rooms`.
 struct Alias {
   double yaw_rad = 0;
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
-  double overlap_ratio = 0;
-  StoreyId from_storey, to_storey;
+  double overlap_ratio = 0;         // share of the rooms' wall sections that coincide with those of their twins
+  StoreyId from_storey, to_storey;  // of the rooms and of their twins; none: several
+  std::vector<RoomId> rooms, twins;  // rooms[i] falls on twins[i]
+  double tolerance_m = 0;            // within which sections coincide
+  double section_length_m = 0;       // of the rooms' wall sections, mean of the heights looked at
+  bool closed = false;               // no doorway leads from the rooms, or from their twins, to a room that is none of them
+  std::vector<ElementId> differences;  // what has no counterpart, longest first
+};
+
+// Rooms of one shape that a LiDAR cannot tell apart from inside: doorways, walls and other fixed things stand alike.
+struct LookAlikes {
+  std::vector<RoomId> rooms;
 };
 
 struct DiagnosticCount {
@@ -161,6 +172,7 @@ struct AGraph {
   std::string tool_version, source_path, source_format, source_sha256;
   std::vector<Option> options;
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  std::optional<double> true_north_rad;  // direction of true north in the plan frame, counter-clockwise from +x; none: not known
 
   std::vector<Storey> storeys;
   std::vector<Wall> walls;
@@ -174,6 +186,7 @@ struct AGraph {
   std::vector<Element> elements;
   Mesh mesh;
   std::vector<Alias> aliases;
+  std::vector<LookAlikes> look_alikes;
   std::vector<DiagnosticCount> diagnostics;
 };
 

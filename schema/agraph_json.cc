@@ -30,6 +30,13 @@ Json Reference(Id<Tag> id) {
   return id.valid() ? Json(id.value) : Json(nullptr);
 }
 
+template <class Tag>
+Json Ids(const std::vector<Id<Tag>>& ids) {
+  Json out = Json::array();
+  for (Id<Tag> id : ids) out.push_back(id.value);
+  return out;
+}
+
 // The entries that every array has: id, guid, name, storey.
 Json Entry(size_t id, const std::string& guid, const std::string& name, StoreyId storey) {
   Json out;
@@ -105,8 +112,7 @@ Json Rooms(const AGraph& g) {
     entry["yaw_rad"] = Radians(r.yaw_rad);
     entry["floor_z_m"] = Metres(r.floor_z_m);
     entry["ceiling_z_m"] = Metres(r.ceiling_z_m);
-    entry["surfaces"] = Json::array();
-    for (SurfaceId id : r.surfaces) entry["surfaces"].push_back(id.value);
+    entry["surfaces"] = Ids(r.surfaces);
     out.push_back(std::move(entry));
   }
   return out;
@@ -169,12 +175,40 @@ Json OpenBoundaries(const AGraph& g) {
   return out;
 }
 
+Json Aliases(const AGraph& g) {
+  Json out = Json::array();
+  for (const Alias& a : g.aliases) {
+    out.push_back({{"yaw_rad", Radians(a.yaw_rad)},
+                   {"translation", Point(a.translation)},
+                   {"closed", a.closed},
+                   {"overlap_ratio", Round(a.overlap_ratio, 1e-4)},
+                   {"tolerance_m", Metres(a.tolerance_m)},
+                   {"section_length_m", Metres(a.section_length_m)},
+                   {"storeys", Json::array({Reference(a.from_storey), Reference(a.to_storey)})},
+                   {"rooms", Ids(a.rooms)},
+                   {"twins", Ids(a.twins)},
+                   {"differences", Json::array()}});
+    for (ElementId e : a.differences) {
+      const Element& element = g.elements[e.index()];
+      out.back()["differences"].push_back({{"guid", element.guid}, {"name", element.name}, {"type", element.type}});
+    }
+  }
+  return out;
+}
+
+Json AllLookAlikes(const AGraph& g) {
+  Json out = Json::array();
+  for (const LookAlikes& l : g.look_alikes) out.push_back(Ids(l.rooms));
+  return out;
+}
+
 }  // namespace
 
 std::string AGraphToJson(const AGraph& g) {
   Json out;
   out["schema"] = std::to_string(kSchemaMajor) + "." + std::to_string(kSchemaMinor);
   out["source"] = {{"path", g.source_path}, {"format", g.source_format}, {"sha256", g.source_sha256}};
+  if (g.true_north_rad) out["true_north_rad"] = Radians(*g.true_north_rad);
   out["storeys"] = Storeys(g);
   out["walls"] = Walls(g);
   out["surfaces"] = Surfaces(g);
@@ -183,6 +217,8 @@ std::string AGraphToJson(const AGraph& g) {
   out["windows"] = Windows(g);
   out["columns"] = Columns(g);
   out["open_boundaries"] = OpenBoundaries(g);
+  out["aliases"] = Aliases(g);
+  out["look_alikes"] = AllLookAlikes(g);
   // Bytes that are no UTF-8 (a damaged name) become U+FFFD instead of an exception.
   return out.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -7,6 +7,7 @@
 #include <new>
 
 #include "schema/agraph_generated.h"
+#include "schema/checksum.h"
 #include "schema/files.h"
 
 namespace plumb {
@@ -132,8 +133,18 @@ void ReadRest(const fb::AGraph& in, Copier& copy, AGraph& out) {
       for (const fb::Triangle* t : *mesh->triangles()) out.mesh.triangles.push_back({t->a(), t->b(), t->c(), t->element()});
     }
   }
-  ReadAll(in.aliases(), out.aliases, [](const fb::Alias& a) {
-    return Alias{a.yaw_rad(), Vec(a.translation()), a.overlap_ratio(), StoreyId(a.from_storey()), StoreyId(a.to_storey())};
+  ReadAll(in.aliases(), out.aliases, [&](const fb::Alias& a) {
+    Alias alias{a.yaw_rad(), Vec(a.translation()), a.overlap_ratio(), StoreyId(a.from_storey()), StoreyId(a.to_storey()), {}, {},
+                a.tolerance_m(), a.section_length_m(), a.closed(), {}};
+    copy.Numbers(a.rooms(), alias.rooms);
+    copy.Numbers(a.twins(), alias.twins);
+    copy.Numbers(a.differences(), alias.differences);
+    return alias;
+  });
+  ReadAll(in.look_alikes(), out.look_alikes, [&](const fb::LookAlikes& l) {
+    LookAlikes alike;
+    copy.Numbers(l.rooms(), alike.rooms);
+    return alike;
   });
   ReadAll(in.diagnostics(), out.diagnostics, [&](const fb::DiagnosticCount& d) {
     return DiagnosticCount{copy.Str(d.code()), static_cast<Severity>(d.severity()), d.count()};
@@ -178,11 +189,16 @@ class Checker {
       Fault(what, i, fmt::format("refers to entry {} of a table with {}", id.value, size));
     }
   }
+  template <class Tag>
+  void References(const char* what, size_t i, const std::vector<Id<Tag>>& ids, size_t size) {
+    for (Id<Tag> id : ids) Reference(what, i, id, size, false);
+  }
   void CheckRing(const char* what, size_t i, const Ring& ring) {
     for (const auto& p : ring) Finite(what, i, p);
     if (ring.size() < 3) Fault(what, i, fmt::format("a ring has {} points; it needs 3", ring.size()));
   }
   void CheckWallsAndSurfaces() {
+    if (graph_.true_north_rad) Finite("true north", 0, *graph_.true_north_rad);
     const size_t storeys = graph_.storeys.size();
     for (size_t i = 0; i < graph_.walls.size(); ++i) {
       const Wall& w = graph_.walls[i];
@@ -206,7 +222,7 @@ class Checker {
       CheckRing("room", i, r.polygon);
       for (const Ring& hole : r.holes) CheckRing("room", i, hole);
       Reference("room", i, r.storey, graph_.storeys.size(), true);
-      for (SurfaceId id : r.surfaces) Reference("room", i, id, graph_.surfaces.size(), false);
+      References("room", i, r.surfaces, graph_.surfaces.size());
     }
   }
   void CheckOpenings() {
@@ -257,16 +273,22 @@ class Checker {
     }
   }
   void CheckRest() {
-    for (size_t i = 0; i < graph_.aliases.size(); ++i) {
-      const Alias& a = graph_.aliases[i];
-      Finite("alias", i, a.yaw_rad, a.translation, a.overlap_ratio);
-      Reference("alias", i, a.from_storey, graph_.storeys.size(), true);
-      Reference("alias", i, a.to_storey, graph_.storeys.size(), true);
-    }
+    for (size_t i = 0; i < graph_.aliases.size(); ++i) CheckAlias(i);
+    for (size_t i = 0; i < graph_.look_alikes.size(); ++i) References("look-alikes", i, graph_.look_alikes[i].rooms, graph_.rooms.size());
     for (size_t i = 0; i < graph_.factors.size(); ++i) CheckFactor(i);
     for (size_t i = 0; i < graph_.diagnostics.size(); ++i) {
       if (graph_.diagnostics[i].severity > Severity::kError) Fault("diagnostic", i, "its severity is unknown");
     }
+  }
+  void CheckAlias(size_t i) {
+    const Alias& a = graph_.aliases[i];
+    Finite("alias", i, a.yaw_rad, a.translation, a.overlap_ratio, a.tolerance_m, a.section_length_m);
+    Reference("alias", i, a.from_storey, graph_.storeys.size(), true);
+    Reference("alias", i, a.to_storey, graph_.storeys.size(), true);
+    References("alias", i, a.rooms, graph_.rooms.size());
+    References("alias", i, a.twins, graph_.rooms.size());
+    References("alias", i, a.differences, graph_.elements.size());
+    if (a.rooms.size() != a.twins.size()) Fault("alias", i, "it has not one twin for each room");
   }
   void CheckFactor(size_t i) {
     const Factor& f = graph_.factors[i];
@@ -290,6 +312,14 @@ class Checker {
 
 Error Damaged(const char* how) { return {ErrorCode::kAGraphDamaged, std::string("the A-Graph is damaged: ") + how}; }
 
+// Written since schema 1.1.
+bool ChecksumHolds(const fb::AGraph& in, std::span<const uint8_t> bytes) {
+  const uint8_t* field = flatbuffers::GetRoot<flatbuffers::Table>(bytes.data())->GetAddressOf(fb::AGraph::VT_CHECKSUM);
+  if (field == nullptr) return in.schema_major() == 1 && in.schema_minor() == 0;
+  const auto hole = static_cast<size_t>(field - bytes.data());
+  return hole % sizeof(uint64_t) == 0 && ChecksumAround(bytes, hole) == in.checksum();
+}
+
 Expected<AGraph> Convert(const fb::AGraph& in, size_t file_bytes) {
   Copier copy(file_bytes);
   AGraph out;
@@ -298,6 +328,7 @@ Expected<AGraph> Convert(const fb::AGraph& in, size_t file_bytes) {
   out.source_format = copy.Str(in.source_format());
   out.source_sha256 = copy.Str(in.source_sha256());
   out.origin = Vec(in.origin());
+  if (const auto north = in.true_north_rad()) out.true_north_rad = *north;
   ReadStructure(in, copy, out);
   ReadOpenings(in, copy, out);
   ReadRest(in, copy, out);
@@ -322,6 +353,7 @@ Expected<AGraph> ReadAGraph(std::span<const uint8_t> bytes) {
     return Fail(ErrorCode::kAGraphTooNew, fmt::format("the A-Graph has schema {}.{}; this version reads up to {}.x", in.schema_major(),
                                                       in.schema_minor(), kSchemaMajor));
   }
+  if (!ChecksumHolds(in, bytes)) return tl::unexpected<Error>(Damaged("its checksum does not hold: bytes were changed since it was written"));
   if (in.schema_major() == 0) return tl::unexpected<Error>(Damaged("it has no schema version"));
   try {
     return Convert(in, bytes.size());

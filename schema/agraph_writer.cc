@@ -3,6 +3,7 @@
 #include <flatbuffers/flatbuffers.h>
 
 #include "schema/agraph_generated.h"
+#include "schema/checksum.h"
 #include "schema/files.h"
 
 namespace plumb {
@@ -27,6 +28,14 @@ auto PackAll(Builder& b, const Items& items, Function pack) {
   offsets.reserve(items.size());
   for (const auto& item : items) offsets.push_back(pack(item));
   return b.CreateVector(offsets);
+}
+
+template <class Tag>
+auto PackIds(Builder& b, const std::vector<Id<Tag>>& ids) {
+  std::vector<uint32_t> values;
+  values.reserve(ids.size());
+  for (Id<Tag> id : ids) values.push_back(id.value);
+  return b.CreateVector(values);
 }
 
 auto Str(Builder& b, const std::string& s) { return b.CreateSharedString(s); }
@@ -67,12 +76,10 @@ auto PackRooms(Builder& b, const AGraph& g) {
     const auto guid = Str(b, r.guid), name = Str(b, r.name);
     const auto polygon = Pack(b, r.polygon);
     const auto holes = PackAll(b, r.holes, [&](const Ring& ring) { return Pack(b, ring); });
-    std::vector<uint32_t> surfaces;
-    for (SurfaceId id : r.surfaces) surfaces.push_back(id.value);
-    const auto packed_surfaces = b.CreateVector(surfaces);
+    const auto surfaces = PackIds(b, r.surfaces);
     const fb::Vec3 center = Pack(r.center);
     return fb::CreateRoom(b, guid, name, r.storey.value, polygon, holes, r.area_m2, &center, r.yaw_rad, r.floor_z_m, r.ceiling_z_m,
-                          packed_surfaces);
+                          surfaces);
   });
 }
 
@@ -129,22 +136,29 @@ auto PackElements(Builder& b, const AGraph& g) {
 }
 
 auto PackMesh(Builder& b, const Mesh& mesh) {
-  std::vector<fb::Vec3f> vertices;
-  vertices.reserve(mesh.vertices.size());
-  for (const auto& v : mesh.vertices) vertices.emplace_back(v.x(), v.y(), v.z());
-  std::vector<fb::Triangle> triangles;
-  triangles.reserve(mesh.triangles.size());
-  for (const auto& t : mesh.triangles) triangles.emplace_back(t.a, t.b, t.c, t.element);
-  const auto packed_vertices = b.CreateVectorOfStructs(vertices);
-  const auto packed_triangles = b.CreateVectorOfStructs(triangles);
-  return fb::CreateMesh(b, packed_vertices, packed_triangles);
+  const auto vertices = b.CreateVectorOfStructs<fb::Vec3f>(mesh.vertices.size(), [&](size_t i, fb::Vec3f* out) {
+    *out = {mesh.vertices[i].x(), mesh.vertices[i].y(), mesh.vertices[i].z()};
+  });
+  const auto triangles = b.CreateVectorOfStructs<fb::Triangle>(mesh.triangles.size(), [&](size_t i, fb::Triangle* out) {
+    const Triangle& t = mesh.triangles[i];
+    *out = {t.a, t.b, t.c, t.element};
+  });
+  return fb::CreateMesh(b, vertices, triangles);
 }
 
 auto PackAliases(Builder& b, const AGraph& g) {
   return PackAll(b, g.aliases, [&](const Alias& a) {
     const fb::Vec3 translation = Pack(a.translation);
-    return fb::CreateAlias(b, a.yaw_rad, &translation, a.overlap_ratio, a.from_storey.value, a.to_storey.value);
+    const auto rooms = PackIds(b, a.rooms);
+    const auto twins = PackIds(b, a.twins);
+    const auto differences = PackIds(b, a.differences);
+    return fb::CreateAlias(b, a.yaw_rad, &translation, a.overlap_ratio, a.from_storey.value, a.to_storey.value, rooms, twins, a.tolerance_m,
+                           a.section_length_m, a.closed, differences);
   });
+}
+
+auto PackLookAlikes(Builder& b, const AGraph& g) {
+  return PackAll(b, g.look_alikes, [&](const LookAlikes& l) { return fb::CreateLookAlikes(b, PackIds(b, l.rooms)); });
 }
 
 auto PackDiagnostics(Builder& b, const AGraph& g) {
@@ -162,10 +176,12 @@ auto PackOptions(Builder& b, const AGraph& g) {
   });
 }
 
-}  // namespace
+// The mesh makes up most of a large file; a builder that has to grow holds the file twice.
+size_t ExpectedBytes(const AGraph& g) {
+  return (1 << 20) + g.mesh.vertices.size() * sizeof(fb::Vec3f) + g.mesh.triangles.size() * sizeof(fb::Triangle);
+}
 
-std::vector<uint8_t> WriteAGraph(const AGraph& g) {
-  Builder b(1 << 20);
+void Pack(const AGraph& g, Builder& b) {
   // Sequenced statements: the order of evaluation of call arguments, and so the bytes, would differ between compilers.
   const auto tool_version = Str(b, g.tool_version);
   const auto source_path = Str(b, g.source_path);
@@ -185,14 +201,31 @@ std::vector<uint8_t> WriteAGraph(const AGraph& g) {
   const auto aliases = PackAliases(b, g);
   const auto diagnostics = PackDiagnostics(b, g);
   const auto open_boundaries = PackOpenBoundaries(b, g);
+  const auto look_alikes = PackLookAlikes(b, g);
   const fb::Vec3 origin = Pack(g.origin);
+  const auto true_north = g.true_north_rad ? flatbuffers::Optional<double>(*g.true_north_rad) : flatbuffers::nullopt;
+  constexpr uint64_t kNotYet = 1;  // 0 would be left out
   b.Finish(fb::CreateAGraph(b, kSchemaMajor, kSchemaMinor, tool_version, source_path, source_format, source_sha256, options, &origin, storeys,
                             walls, surfaces, rooms, doorways, windows, columns, factors, elements, mesh, aliases, diagnostics,
-                            open_boundaries),
+                            open_boundaries, look_alikes, true_north, kNotYet),
            fb::AGraphIdentifier());
+  uint8_t* field = flatbuffers::GetMutableRoot<flatbuffers::Table>(b.GetBufferPointer())->GetAddressOf(fb::AGraph::VT_CHECKSUM);
+  const auto hole = static_cast<size_t>(field - b.GetBufferPointer());
+  flatbuffers::WriteScalar(field, ChecksumAround({b.GetBufferPointer(), b.GetSize()}, hole));
+}
+
+}  // namespace
+
+std::vector<uint8_t> WriteAGraph(const AGraph& graph) {
+  Builder b(ExpectedBytes(graph));
+  Pack(graph, b);
   return {b.GetBufferPointer(), b.GetBufferPointer() + b.GetSize()};
 }
 
-Expected<void> WriteAGraphFile(const AGraph& graph, const std::string& path) { return WriteFileAtomically(path, WriteAGraph(graph)); }
+Expected<void> WriteAGraphFile(const AGraph& graph, const std::string& path) {
+  Builder b(ExpectedBytes(graph));
+  Pack(graph, b);
+  return WriteFileAtomically(path, std::span<const uint8_t>(b.GetBufferPointer(), b.GetSize()));
+}
 
 }  // namespace plumb

@@ -1,10 +1,8 @@
 #include "compiler/emit/emit.h"
 
 #include <Eigen/Geometry>
-#include <array>
 #include <bit>
 #include <cmath>
-#include <map>
 
 namespace plumb::compiler {
 namespace {
@@ -12,11 +10,43 @@ namespace {
 // Single precision holds 0.1 mm up to here.
 constexpr double kFar_m = 1000;
 
-std::array<uint32_t, 3> BitsOf(const Eigen::Vector3f& v) {
-  const Eigen::Vector3f positive_zero = v + Eigen::Vector3f::Zero();  // -0 and 0 are one point
-  return {std::bit_cast<uint32_t>(positive_zero.x()), std::bit_cast<uint32_t>(positive_zero.y()),
-          std::bit_cast<uint32_t>(positive_zero.z())};
-}
+// Finds vertices by their bits: a hash table of positions in the vector, with open addresses.
+class VertexTable {
+ public:
+  explicit VertexTable(std::vector<Eigen::Vector3f>& vertices) : vertices_(vertices), slots_(1024, kEmpty) {}
+
+  // Position of `v`, which is added if it is new. -0 and 0 are one point.
+  uint32_t FindOrAdd(Eigen::Vector3f v) {
+    v += Eigen::Vector3f::Zero();
+    if (2 * vertices_.size() >= slots_.size()) Grow();
+    uint32_t& slot = slots_[SlotOf(v)];
+    if (slot == kEmpty) {
+      slot = static_cast<uint32_t>(vertices_.size());
+      vertices_.push_back(v);
+    }
+    return slot;
+  }
+
+ private:
+  static constexpr uint32_t kEmpty = 0xffffffffu;
+
+  // Where `v` is, or where it would go.
+  [[nodiscard]] size_t SlotOf(const Eigen::Vector3f& v) const {
+    uint64_t hash = 0;
+    for (float c : {v.x(), v.y(), v.z()}) hash = (hash ^ std::bit_cast<uint32_t>(c)) * 0x9e3779b97f4a7c15u, hash ^= hash >> 32;
+    size_t at = hash & (slots_.size() - 1);
+    while (slots_[at] != kEmpty && vertices_[slots_[at]] != v) at = (at + 1) & (slots_.size() - 1);
+    return at;
+  }
+
+  void Grow() {
+    slots_.assign(2 * slots_.size(), kEmpty);
+    for (uint32_t i = 0; i < vertices_.size(); ++i) slots_[SlotOf(vertices_[i])] = i;
+  }
+
+  std::vector<Eigen::Vector3f>& vertices_;
+  std::vector<uint32_t> slots_;  // their number is a power of two
+};
 
 Eigen::Vector3d ShiftOf(const PlanIr& plan) {
   Eigen::AlignedBox3d box;
@@ -65,16 +95,19 @@ class Mover {
 void EmitMesh(const PlanIr& plan, AGraph& graph) {
   const Eigen::Vector3d shift = ShiftOf(plan);
   graph.origin = plan.origin + shift;
-  std::map<std::array<uint32_t, 3>, uint32_t> known;
+  size_t vertices = 0, triangles = 0;
+  for (const PlanElement& e : plan.elements) {
+    vertices += e.body.vertices.size();
+    triangles += e.body.triangles.size();
+  }
+  graph.mesh.vertices.reserve(vertices);
+  graph.mesh.triangles.reserve(triangles);
+  VertexTable table(graph.mesh.vertices);
+  std::vector<uint32_t> index;
   for (uint32_t e = 0; e < plan.elements.size(); ++e) {
     const Solid& body = plan.elements[e].body;
-    std::vector<uint32_t> index;
-    for (const auto& v : body.vertices) {
-      const Eigen::Vector3f p = (v - shift).cast<float>();
-      const auto [it, fresh] = known.emplace(BitsOf(p), static_cast<uint32_t>(graph.mesh.vertices.size()));
-      if (fresh) graph.mesh.vertices.push_back(p);
-      index.push_back(it->second);
-    }
+    index.clear();
+    for (const auto& v : body.vertices) index.push_back(table.FindOrAdd((v - shift).cast<float>()));
     for (const Eigen::Vector3i& t : body.triangles) {
       const Triangle out{index[static_cast<size_t>(t[0])], index[static_cast<size_t>(t[1])], index[static_cast<size_t>(t[2])], e};
       if (out.a != out.b && out.b != out.c && out.c != out.a) graph.mesh.triangles.push_back(out);
@@ -110,6 +143,7 @@ void EmitProvenance(const PlanIr& plan, const std::vector<Option>& options, cons
   graph.source_format = plan.source_format;
   graph.source_sha256 = plan.source_sha256;
   graph.options = options;
+  graph.true_north_rad = plan.true_north_rad;
   graph.diagnostics = sink.Summary();
 }
 

@@ -45,7 +45,7 @@ class FootprintCutter {
         covers_(plan, {ElementKind::kRoof, ElementKind::kSlab, ElementKind::kCovering}) {}
 
   FloorIr Run() {
-    out_.walls = CollectWalls(plan_, sink_);
+    out_.walls = CollectWalls(plan_);
     for (const Level& level : levels_) {
       out_.floors.emplace_back();
       out_.floors.back().level = level;
@@ -230,17 +230,14 @@ std::string FootprintOptions::Check() const {
   return {};
 }
 
-std::vector<PlanWall> CollectWalls(const PlanIr& plan, DiagnosticSink& sink) {
+std::vector<PlanWall> CollectWalls(const PlanIr& plan) {
   std::vector<PlanWall> out;
   std::map<std::string, size_t> by_guid;
   for (uint32_t i = 0; i < plan.elements.size(); ++i) {
     const PlanElement& e = plan.elements[i];
     if (!ActsAsWall(e)) continue;
     const Eigen::AlignedBox3d box = Bounds(SectionSolid(e));
-    if (box.isEmpty() || SectionSolid(e).empty()) {
-      sink.Emit(DiagnosticKind::kWallNotCut, e.location, fmt::format("{} has no solid; it is left out", e.location.ToString()));
-      continue;
-    }
+    if (box.isEmpty() || SectionSolid(e).empty()) continue;  // the frontend has said so
     const auto known = e.guid.empty() ? by_guid.end() : by_guid.find(e.guid);
     if (known != by_guid.end()) {
       PlanWall& wall = out[known->second];

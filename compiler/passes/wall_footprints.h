@@ -16,7 +16,7 @@ struct FootprintOptions {
 };
 
 // A wall, a curtain wall or a proxy with an uncut solid. Elements of one guid are one wall.
-[[nodiscard]] std::vector<PlanWall> CollectWalls(const PlanIr& plan, DiagnosticSink& sink);
+[[nodiscard]] std::vector<PlanWall> CollectWalls(const PlanIr& plan);
 
 // Sections of walls and columns on every level; the planar maps stay empty (planar_map.h). A solid is in the map of each level whose
 // section plane it crosses. A wall that crosses none is cut at its own middle on the level of its storey, and bounds rooms only if it is

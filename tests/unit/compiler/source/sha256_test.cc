@@ -26,5 +26,13 @@ TEST(Sha256, HandlesLengthsAroundABlock) {
   EXPECT_EQ(seen.size(), 200u);
 }
 
+TEST(Sha256, IsTheSameWithoutTheProcessorsInstructions) {
+  std::string text;
+  for (size_t n = 0; n < 300; ++n) {
+    EXPECT_EQ(Sha256Hex(text, true), Sha256Hex(text)) << n;
+    text += static_cast<char>(7 * n * n + 13 * n);
+  }
+}
+
 }  // namespace
 }  // namespace plumb::compiler

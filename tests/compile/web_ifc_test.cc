@@ -1,0 +1,193 @@
+// The straight wall surfaces of real plans against an independent tessellation, that of npm's web-ifc, run by node as a child process.
+// Skipped without node, web-ifc or the plans.
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <iostream>
+#include <limits>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "compiler/compile.h"
+#include "schema/files.h"
+#include "tests/support/temporary_folder.h"
+
+namespace plumb {
+namespace {
+
+namespace fs = std::filesystem;
+using compiler::DiagnosticKind;
+
+constexpr double kExact_m = 0.001;
+constexpr double kStep_m = 0.2;          // between samples, along and up
+constexpr double kMargin_m = 0.03;       // samples keep off the edges of a surface and its openings
+constexpr double kMinCovered = 0.95;     // of the samples lie on the wall; the rest are tops that slope and openings that the A-Graph has none for
+constexpr int kNoWebIfc = 3;
+
+struct Facet {
+  Eigen::Vector3d a, b, c;
+};
+using FacetsOfWalls = std::map<std::string, std::vector<Facet>>;
+
+double DistanceToEdge(const Eigen::Vector3d& p, const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+  const Eigen::Vector3d along = b - a;
+  const double t = along.squaredNorm() > 0 ? std::clamp((p - a).dot(along) / along.squaredNorm(), 0.0, 1.0) : 0;
+  return (p - a - t * along).norm();
+}
+
+double DistanceTo(const Facet& f, const Eigen::Vector3d& p) {
+  const Eigen::Vector3d n = (f.b - f.a).cross(f.c - f.a);
+  const auto inside = [&](const Eigen::Vector3d& u, const Eigen::Vector3d& v) { return n.dot((v - u).cross(p - u)) >= 0; };
+  if (n.norm() > 0 && inside(f.a, f.b) && inside(f.b, f.c) && inside(f.c, f.a)) return std::abs(n.normalized().dot(p - f.a));
+  return std::min({DistanceToEdge(p, f.a, f.b), DistanceToEdge(p, f.b, f.c), DistanceToEdge(p, f.c, f.a)});
+}
+
+// As web_ifc.mjs writes them.
+FacetsOfWalls ParseFacets(const std::string& bytes) {
+  FacetsOfWalls out;
+  constexpr size_t kHead = 28, kFacet = 9 * sizeof(double);
+  for (size_t at = 0; at + kHead <= bytes.size();) {
+    uint32_t count = 0;
+    std::memcpy(&count, bytes.data() + at + 24, sizeof(count));
+    std::vector<Facet>& facets = out[bytes.substr(at, 22)];
+    for (at += kHead; count > 0 && at + kFacet <= bytes.size(); --count, at += kFacet) {
+      double v[9];
+      std::memcpy(v, bytes.data() + at, kFacet);
+      facets.push_back({{v[0], v[1], v[2]}, {v[3], v[4], v[5]}, {v[6], v[7], v[8]}});
+    }
+  }
+  return out;
+}
+
+// Ranges along a wall and up where it is open.
+struct Hole {
+  double from_m, to_m, bottom_m, top_m;
+};
+
+std::vector<Hole> HolesOf(const AGraph& graph, const Surface& s, const Eigen::Vector2d& along) {
+  std::vector<Hole> holes;
+  const auto add = [&](const auto& opening) {
+    if (opening.wall != s.wall) return;
+    const double middle = along.dot(opening.position.template head<2>() - s.start), half = opening.width_m / 2 + kMargin_m;
+    holes.push_back({middle - half, middle + half, opening.position.z() - kMargin_m, opening.position.z() + opening.height_m + kMargin_m});
+  };
+  for (const Doorway& d : graph.doorways) add(d);
+  for (const Window& w : graph.windows) add(w);
+  return holes;
+}
+
+// Points of a surface that lie on the wall's body, as far as the A-Graph says: from its foot up to where the wall was cut. Above, a surface
+// reaches to the highest point of a top that may slope.
+std::vector<Eigen::Vector3d> Samples(const AGraph& graph, const Surface& s) {
+  const Eigen::Vector2d along = (s.end - s.start).normalized();
+  const std::vector<Hole> holes = HolesOf(graph, s, along);
+  const double cut_m = graph.storeys[s.storey.index()].elevation_m + compiler::CompileOptions().section_height_m;
+  const double top_m = std::min(cut_m, s.z_max_m - kMargin_m);
+  std::vector<Eigen::Vector3d> out;
+  for (double x = kMargin_m; x < s.length_m() - kMargin_m; x += kStep_m) {
+    for (double z = top_m; z > s.z_min_m + kMargin_m; z -= kStep_m) {
+      const bool open = std::any_of(holes.begin(), holes.end(), [&](const Hole& h) { return x > h.from_m && x < h.to_m && z > h.bottom_m && z < h.top_m; });
+      const Eigen::Vector2d at = s.start + x * along;
+      if (!open) out.emplace_back(at.x(), at.y(), z);
+    }
+  }
+  return out;
+}
+
+// GlobalIds of what the compiler says it did not read exactly.
+std::set<std::string> NotExact(const compiler::DiagnosticSink& sink) {
+  std::set<std::string> out;
+  for (const compiler::Diagnostic& d : sink.all()) {
+    const int code = static_cast<int>(d.kind);
+    if (code >= static_cast<int>(DiagnosticKind::kUnsupportedGeometry) && code < static_cast<int>(DiagnosticKind::kWallWithoutBody)) {
+      out.insert(d.location.guid);
+    }
+  }
+  return out;
+}
+
+class WebIfc : public ::testing::TestWithParam<std::string> {
+ protected:
+  void SetUp() override {
+    const fs::path plan = fs::path(PLUMB_SOURCE_DIR) / "../shared/data/plans/ifc" / (GetParam() + ".ifc");
+    if (!fs::exists(plan)) GTEST_SKIP() << plan << " is not there";
+    const test::TemporaryFolder folder;
+    const std::string out = folder / "walls";
+    const std::string command = "node '" PLUMB_SOURCE_DIR "/tests/support/web_ifc.mjs' walls '" + plan.string() + "' '" + out + "' 2> /dev/null";
+    const int status = std::system(command.c_str());
+    const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    if (code == kNoWebIfc || code == 127) GTEST_SKIP() << "node or web-ifc is not installed: npm install -g web-ifc";
+    ASSERT_EQ(code, 0) << command;
+    facets_ = ParseFacets(ReadFileText(out).value());
+    result_ = compiler::Compile(plan.string());
+    ASSERT_TRUE(result_.graph);
+  }
+
+  FacetsOfWalls facets_;
+  compiler::CompileResult result_;
+};
+
+// How far the nearest facet that is parallel to the surface, and before it, lies off its plane.
+double OffPlane(const Surface& s, const std::vector<Facet>& facets) {
+  const Eigen::Vector2d along = (s.end - s.start).normalized();
+  double nearest_m = std::numeric_limits<double>::infinity();
+  for (const Facet& f : facets) {
+    double off_m = 0, low = s.length_m(), high = 0;
+    for (const Eigen::Vector3d& p : {f.a, f.b, f.c}) {
+      off_m = std::max(off_m, std::abs(s.normal.dot(p) + s.d_m));
+      low = std::min(low, along.dot(p.head<2>() - s.start));
+      high = std::max(high, along.dot(p.head<2>() - s.start));
+    }
+    const bool beside = high < kMargin_m || low > s.length_m() - kMargin_m;
+    if (!beside) nearest_m = std::min(nearest_m, off_m);
+  }
+  return nearest_m;
+}
+
+TEST_P(WebIfc, HasTheSameWallSurfacesToAMillimetre) {
+  const AGraph& graph = *result_.graph;
+  const std::set<std::string> not_exact = NotExact(result_.diagnostics);
+  size_t surfaces = 0, samples = 0, covered = 0;
+  double worst_m = 0;
+  for (size_t i = 0; i < graph.surfaces.size(); ++i) {
+    const Surface& s = graph.surfaces[i];
+    const Wall& wall = graph.walls[s.wall.index()];
+    const auto facets = facets_.find(wall.guid);
+    if (s.arc || not_exact.contains(wall.guid) || facets == facets_.end() || s.length_m() <= 2 * kMargin_m) continue;
+    const double off_m = OffPlane(s, facets->second);
+    EXPECT_LE(off_m, kExact_m) << "surface " << i << " from " << s.start.transpose() << " to " << s.end.transpose() << " of wall " << wall.guid << " `"
+                               << wall.name << "`";
+    ++surfaces;
+    worst_m = std::max(worst_m, off_m);
+    for (const Eigen::Vector3d& p : Samples(graph, s)) {
+      ++samples;
+      covered += std::any_of(facets->second.begin(), facets->second.end(), [&](const Facet& f) { return DistanceTo(f, p) <= kExact_m; });
+    }
+  }
+  EXPECT_GT(surfaces, 0u);
+  EXPECT_GE(static_cast<double>(covered), kMinCovered * static_cast<double>(samples)) << covered << " of " << samples << " samples lie on a wall";
+  std::cout << GetParam() << ": " << surfaces << " surfaces at most " << 1000 * worst_m << " mm off; " << covered << " of " << samples
+            << " samples lie on the wall\n";
+}
+
+// Those whose straight walls the compiler reads exactly.
+INSTANTIATE_TEST_SUITE_P(All, WebIfc,
+                         ::testing::Values("AC11-Institute-Var-2-IFC", "AC20-FZK-Haus", "Allplan-Smiley-West", "Duplex_A_20110907", "MAD_SCIENTIST_212"),
+                         [](const auto& plan) {
+                           std::string name = plan.param;
+                           std::replace_if(name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace plumb

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <exception>
 #include <map>
+#include <new>
 #include <string_view>
 #include <vector>
 
@@ -113,6 +114,9 @@ CompileResult Compile(const std::string& path, const CompileOptions& options) {
   }
   try {
     out.graph = Run(path, options, out.diagnostics);
+  } catch (const std::bad_alloc&) {
+    out.graph.reset();
+    out.diagnostics.Emit(DiagnosticKind::kPlanTooComplex, {}, fmt::format("`{}` needs more memory than there is", path));
   } catch (const std::exception& e) {
     out.graph.reset();
     out.diagnostics.Emit(DiagnosticKind::kInternalError, {}, fmt::format("the compiler failed: {}", e.what()));

@@ -74,7 +74,9 @@ void MarkLevels(Cdt& cdt) {
   }
 }
 
-void TriangulateWithCgal(std::span<const Ring2> rings, Triangulation2& out) {
+// False: its sides cross so often that there is no polygon to speak of.
+bool TriangulateWithCgal(std::span<const Ring2> rings, Triangulation2& out) {
+  const size_t max_vertices = 2 * out.points.size() + 1000;
   Cdt cdt;
   int base = 0;
   for (const Ring2& ring : rings) {
@@ -89,6 +91,7 @@ void TriangulateWithCgal(std::span<const Ring2> rings, Triangulation2& out) {
     for (size_t i = 0; i < handles.size(); ++i) {
       const Cdt::Vertex_handle a = handles[i], b = handles[(i + 1) % handles.size()];
       if (a != b) cdt.insert_constraint(a, b);
+      if (cdt.number_of_vertices() > max_vertices) return false;
     }
     base += static_cast<int>(ring.size());
   }
@@ -102,6 +105,7 @@ void TriangulateWithCgal(std::span<const Ring2> rings, Triangulation2& out) {
     if (face->info() % 2 == 0) continue;
     out.triangles.emplace_back(face->vertex(0)->info().value, face->vertex(1)->info().value, face->vertex(2)->info().value);
   }
+  return true;
 }
 
 bool AllFinite(std::span<const Ring2> rings) {
@@ -133,7 +137,7 @@ Triangulation2 TriangulatePolygon(std::span<const Ring2> rings) {
   if (rings.empty() || !AllFinite(rings)) return out;
   if (rings.size() == 1 && TriangulateSmall(rings[0], out.triangles)) return out;
   try {
-    TriangulateWithCgal(rings, out);
+    (void)TriangulateWithCgal(rings, out);
   } catch (const std::exception&) {  // CGAL's preconditions on degenerate input
     out.triangles.clear();
   }

@@ -39,7 +39,7 @@ class Host {
     }
     for (const Floor& floor : floors.floors) levels_.push_back(floor.level);
     for (uint32_t e = 0; e < plan.elements.size(); ++e) {
-      if (IsFilling(plan.elements[e]) && !plan.elements[e].guid.empty()) fillings_by_guid_[plan.elements[e].guid].push_back(e);
+      if (IsFilling(plan.elements[e]) && !plan.elements[e].guid.empty()) fillings_by_source_[SourceOf(plan.elements[e])].push_back(e);
     }
   }
 
@@ -55,20 +55,25 @@ class Host {
   }
 
  private:
-  // The element and the others of its guid (panes).
+  // Some programs give several doors one GlobalId.
+  static std::pair<std::string, uint64_t> SourceOf(const PlanElement& e) { return {e.guid, e.location.step_id}; }
+
+  // The element and the others of its source (panes).
   std::vector<uint32_t> WithPanes(uint32_t element) const {
-    const auto it = fillings_by_guid_.find(plan_.elements[element].guid);
-    return it == fillings_by_guid_.end() ? std::vector<uint32_t>{element} : it->second;
+    const auto it = fillings_by_source_.find(SourceOf(plan_.elements[element]));
+    return it == fillings_by_source_.end() ? std::vector<uint32_t>{element} : it->second;
   }
 
   void CollectCandidates() {
     std::set<uint32_t> taken;
     for (uint32_t i = 0; i < plan_.openings.size(); ++i) {
       const PlanOpening& o = plan_.openings[i];
+      // A curtain wall closes it, and its own doors lead through.
+      if (o.filling != kNoIndex && !IsFilling(plan_.elements[o.filling])) continue;
       Candidate c;
       c.opening = i;
       if (const auto it = wall_of_element_.find(o.wall); it != wall_of_element_.end()) c.wall = it->second;
-      if (o.filling != kNoIndex && IsFilling(plan_.elements[o.filling])) c.fillings = WithPanes(o.filling);
+      if (o.filling != kNoIndex) c.fillings = WithPanes(o.filling);
       taken.insert(c.fillings.begin(), c.fillings.end());
       // An opening in a slab, a roof or a wall without solid.
       if (o.wall != kNoIndex && c.wall == kNoIndex && IsKnownAsNoWall(o.wall)) continue;
@@ -310,7 +315,7 @@ class Host {
   const AGraph& graph_;
   DiagnosticSink& sink_;
   std::map<uint32_t, uint32_t> wall_of_element_;
-  std::map<std::string, std::vector<uint32_t>> fillings_by_guid_;
+  std::map<std::pair<std::string, uint64_t>, std::vector<uint32_t>> fillings_by_source_;
   std::vector<Level> levels_;
   std::vector<Candidate> candidates_;
 };

@@ -14,7 +14,7 @@ enum class OpeningUse : uint8_t { kDoor, kWindow, kUnfilled };
 struct HostedOpening {
   OpeningUse use = OpeningUse::kUnfilled;
   uint32_t opening = kNoIndex;     // in PlanIr::openings; none: a door or window element without any
-  std::vector<uint32_t> fillings;  // elements of the door or window: the one stated and those of its guid
+  std::vector<uint32_t> fillings;  // elements of the door or window: the one stated and those of the same source
   WallId wall;                     // none: no wall is near
   size_t floor = 0;                // in FloorIr::floors
   StoreyId storey;

@@ -232,14 +232,14 @@ std::string FootprintOptions::Check() const {
 
 std::vector<PlanWall> CollectWalls(const PlanIr& plan) {
   std::vector<PlanWall> out;
-  std::map<std::string, size_t> by_guid;
+  std::map<std::pair<std::string, uint64_t>, size_t> by_source;  // some programs give several walls one GlobalId
   for (uint32_t i = 0; i < plan.elements.size(); ++i) {
     const PlanElement& e = plan.elements[i];
     if (!ActsAsWall(e)) continue;
     const Eigen::AlignedBox3d box = Bounds(SectionSolid(e));
     if (box.isEmpty() || SectionSolid(e).empty()) continue;  // the frontend has said so
-    const auto known = e.guid.empty() ? by_guid.end() : by_guid.find(e.guid);
-    if (known != by_guid.end()) {
+    const auto known = e.guid.empty() ? by_source.end() : by_source.find({e.guid, e.location.step_id});
+    if (known != by_source.end()) {
       PlanWall& wall = out[known->second];
       wall.elements.push_back(i);
       wall.storey = std::min(wall.storey, e.storey);
@@ -247,7 +247,7 @@ std::vector<PlanWall> CollectWalls(const PlanIr& plan) {
       wall.z_max_m = std::max(wall.z_max_m, box.max().z());
       continue;
     }
-    if (!e.guid.empty()) by_guid.emplace(e.guid, out.size());
+    if (!e.guid.empty()) by_source.emplace(std::make_pair(e.guid, e.location.step_id), out.size());
     out.push_back({{i}, e.storey, box.min().z(), box.max().z()});
   }
   return out;

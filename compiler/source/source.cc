@@ -1,12 +1,12 @@
 #include "compiler/source/source.h"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <limits>
 #include <utility>
 
+#include "compiler/source/inflate.h"
 #include "compiler/source/sha256.h"
 #include "schema/files.h"
 
@@ -14,48 +14,6 @@ namespace plumb::compiler {
 namespace {
 
 constexpr size_t kDetectionBytes = 4096;
-
-bool IsGzip(std::string_view bytes) { return bytes.size() >= 2 && bytes[0] == '\x1f' && bytes[1] == '\x8b'; }
-
-enum class InflateStatus { kOk, kDamaged, kTooLarge };
-
-// Inflates all members of a gzip file.
-InflateStatus Inflate(std::string_view packed, size_t max_bytes, std::string& out) {
-  z_stream stream{};
-  constexpr int kGzipOnly = 16 + MAX_WBITS;
-  if (inflateInit2(&stream, kGzipOnly) != Z_OK) return InflateStatus::kDamaged;
-  size_t fed = 0;
-  std::string chunk(size_t{1} << 18, '\0');
-  InflateStatus status = InflateStatus::kOk;
-  while (true) {
-    if (stream.avail_in == 0 && fed < packed.size()) {
-      const size_t n = std::min<size_t>(packed.size() - fed, std::numeric_limits<uInt>::max());
-      stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data() + fed));  // zlib's interface lacks the const
-      stream.avail_in = static_cast<uInt>(n);
-      fed += n;
-    }
-    stream.next_out = reinterpret_cast<Bytef*>(chunk.data());
-    stream.avail_out = static_cast<uInt>(chunk.size());
-    const int result = inflate(&stream, Z_NO_FLUSH);
-    const size_t produced = chunk.size() - stream.avail_out;
-    if (produced > max_bytes - out.size()) {
-      status = InflateStatus::kTooLarge;
-      break;
-    }
-    out.append(chunk, 0, produced);
-    if (result == Z_STREAM_END) {
-      const bool more = stream.avail_in > 0 || fed < packed.size();
-      if (!more) break;
-      if (stream.avail_in > 0 && *stream.next_in != 0x1f) break;  // padding after the last member
-      if (inflateReset(&stream) != Z_OK) status = InflateStatus::kDamaged;
-    } else if (result != Z_OK) {
-      status = InflateStatus::kDamaged;  // Z_BUF_ERROR too: the input ended inside a member
-    }
-    if (status != InflateStatus::kOk) break;
-  }
-  inflateEnd(&stream);
-  return status;
-}
 
 std::string_view SkipMarkAndSpace(std::string_view bytes) {
   if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
@@ -74,7 +32,7 @@ bool LooksLikeDxf(std::string_view head) {
 const char* HintFor(SourceFormat format) {
   switch (format) {
     case SourceFormat::kDwg: return "save it as DXF or export IFC from the CAD program";
-    case SourceFormat::kZip: return "unpack the archive and give the .ifc file in it";
+    case SourceFormat::kZip: return "unpack the archive and give the plan in it";
     default: return "export the plan as IFC (STEP, .ifc)";
   }
 }
@@ -84,6 +42,9 @@ const char* HintFor(SourceFormat format) {
 std::string SourceOptions::Check() const {
   if (max_bytes == 0 || max_bytes >= std::numeric_limits<uint32_t>::max()) {
     return fmt::format("SourceOptions.max_bytes = {}; must be in 1..{}", max_bytes, std::numeric_limits<uint32_t>::max() - 1);
+  }
+  if (max_unpacked_bytes == 0 || max_unpacked_bytes >= std::numeric_limits<uint32_t>::max()) {
+    return fmt::format("SourceOptions.max_unpacked_bytes = {}; must be in 1..{}", max_unpacked_bytes, std::numeric_limits<uint32_t>::max() - 1);
   }
   return {};
 }
@@ -127,19 +88,17 @@ std::optional<Source> LoadSource(const std::string& path, DiagnosticSink& diagno
   }
   Source source;
   source.path = path;
-  if (IsGzip(*bytes)) {
-    const InflateStatus status = Inflate(*bytes, options.max_bytes, source.bytes);
-    if (status == InflateStatus::kTooLarge) {
-      diagnostics.Emit(DiagnosticKind::kFileTooLarge, {},
-                       fmt::format("`{}` unpacks to more than {} bytes, the limit", path, options.max_bytes));
+  if (IsGzip(*bytes) || IsZip(*bytes)) {
+    const size_t max_bytes = options.max_unpacked_bytes;
+    Expected<std::string> unpacked = IsGzip(*bytes) ? InflateGzip(*bytes, max_bytes) : UnpackPlan(*bytes, max_bytes);
+    if (!unpacked) {
+      const bool too_large = unpacked.error().code == ErrorCode::kFileTooLarge;
+      diagnostics.Emit(too_large ? DiagnosticKind::kFileTooLarge : DiagnosticKind::kBadCompression, {},
+                       fmt::format("`{}`: {}", path, unpacked.error().message),
+                       too_large ? "unpack it and give the file in it" : "copy or download the file again");
       return std::nullopt;
     }
-    if (status == InflateStatus::kDamaged) {
-      diagnostics.Emit(DiagnosticKind::kBadCompression, {},
-                       fmt::format("the gzip data of `{}` are damaged after {} unpacked bytes", path, source.bytes.size()),
-                       "copy or download the file again");
-      return std::nullopt;
-    }
+    source.bytes = std::move(*unpacked);
   } else {
     source.bytes = std::move(*bytes);
   }

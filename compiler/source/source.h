@@ -15,17 +15,19 @@ enum class SourceFormat { kUnknown, kIfcStep, kDxf, kDwg, kXml, kZip, kPly, kGlt
 struct Source {
   std::string path;
   std::string bytes;   // decompressed
-  std::string sha256;  // of `bytes`, 64 hexadecimal digits: the same for a plain file and its .gz
+  std::string sha256;  // of `bytes`, 64 hexadecimal digits: the same for a plain file, its .gz and its .ifczip
   SourceFormat format = SourceFormat::kUnknown;
 };
 
 struct SourceOptions {
-  size_t max_bytes = size_t{2} << 30;  // after decompression; guards against a small file that unpacks to all of the memory
+  size_t max_bytes = size_t{2} << 30;             // of the file as it lies on the disk
+  size_t max_unpacked_bytes = size_t{256} << 20;  // of a compressed one: a small file must not unpack to all of the memory
   // Empty if every field is valid; else names the field, its value and the rule.
   [[nodiscard]] std::string Check() const;
 };
 
-// Reads the file at `path`, plain or gzip, told apart by its first bytes. None: it could not be read or is too large, and an error says so.
+// Reads the file at `path`, plain, gzip or a ZIP archive with one plan in it (.ifczip), told apart by its first bytes. None: it could not be
+// read or is too large, and an error says so.
 [[nodiscard]] std::optional<Source> LoadSource(const std::string& path, DiagnosticSink& diagnostics, const SourceOptions& options = {});
 
 // Told by the first bytes alone, never by the file's name.

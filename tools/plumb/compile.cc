@@ -12,6 +12,7 @@
 #include "schema/agraph_writer.h"
 #include "schema/files.h"
 #include "tools/plumb/command.h"
+#include "tools/plumb/compile_limits.h"
 
 namespace plumb::tools {
 namespace {
@@ -41,9 +42,14 @@ void Tell(const CompileFlags& flags, const std::vector<compiler::Diagnostic>& di
   if (!text.empty()) console.Error(text.substr(0, text.size() - 1));
 }
 
+compiler::CompileResult CompileWithin(const CompileFlags& flags) {
+  const CompileLimits limits(flags.plan);
+  return compiler::Compile(flags.plan, flags.options);
+}
+
 Status RunCompile(const CompileFlags& flags, Session& session) {
   if (const std::string wrong = flags.options.Check(); !wrong.empty()) return session.Fail({ErrorCode::kBadOption, wrong});
-  const compiler::CompileResult result = compiler::Compile(flags.plan, flags.options);
+  const compiler::CompileResult result = CompileWithin(flags);
   const auto& diagnostics = result.diagnostics.all();
   Tell(flags, diagnostics, session.console);
   if (!flags.diagnostics_json.empty()) {
@@ -74,7 +80,7 @@ void AddCompile(CLI::App& app, Session& session) {
   CLI::App* sub = AddSubcommand(app, session, "compile", "Turn a floor plan into an A-Graph: rooms, wall surfaces, doorways, triangles",
                                 "  plumb compile house.ifc -o house.agraph\n"
                                 "  plumb compile house.ifc.gz -o house.agraph --diagnostics-json house.json");
-  sub->add_option("PLAN", flags->plan, "the plan: IFC as a STEP file, gzipped or not")->required();
+  sub->add_option("PLAN", flags->plan, "the plan: IFC as a STEP file, plain, gzipped or in a ZIP archive (.ifczip)")->required();
   sub->add_option("-o,--output", flags->output, "the A-Graph to write")->required()->type_name("FILE.agraph");
   sub->add_option("--diagnostics-json", flags->diagnostics_json, "write what the compiler has to say about the plan as JSON")
       ->type_name("FILE");

@@ -17,7 +17,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr int kMaxDepth = 32;
-constexpr size_t kMaxVisits = 20000;  // of the parts of one curve, which a small file can share so that they unfold exponentially
 constexpr double kSamePoint_m = 1e-6;
 constexpr double kTwoPi = 2 * std::numbers::pi;
 
@@ -105,23 +104,39 @@ Eigen::Vector4d EvaluateSpline(const std::vector<Eigen::Vector4d>& points, const
 std::vector<Vector3d> CurveReader::PointList(const IfcInstance& list) const {
   std::vector<Vector3d> points;
   if (!list) return points;
-  size_t bad = 0;
+  size_t bad = 0, not_finite = 0;
   for (const StepValue item : list[attribute::kPointListCoordinates].Items()) {
-    Vector3d p = Vector3d::Zero();
-    int n = 0;
-    for (const StepValue number : item.Items()) {
-      if (n < 3) p[n++] = number.Real().value_or(0);
-    }
+    Vector3d p;
+    const TripleStatus status = ReadTriple(item, p);
     p *= model_.length_scale();
-    const bool good = IsCoordinate(p);
+    const bool good = status == TripleStatus::kGood && IsCoordinate(p);
     points.push_back(good ? p : Vector3d::Zero());
     bad += good ? 0 : 1;
+    not_finite += status == TripleStatus::kNotFinite || !IsNumber(p) ? 1 : 0;
   }
+  if (!model_.Spend(points.size(), list.index)) return {};
   if (bad > 0) {
-    model_.Emit(DiagnosticKind::kBadAttribute, list.index,
+    model_.Emit(not_finite > 0 ? DiagnosticKind::kNumberNotFinite : DiagnosticKind::kBadAttribute, list.index,
                 fmt::format("{} points of {} lie over {} m from the origin or are no numbers; they are taken as the origin", bad,
                             model_.Label(list.index), kMaxCoordinate_m));
   }
+  return points;
+}
+
+bool CurveReader::TooLong(size_t points, uint32_t whole) const {
+  if (points <= kMaxCurvePoints) return false;
+  model_.Emit(DiagnosticKind::kPlanTooComplex, whole,
+              fmt::format("{} has over {} points; at most that many are read", model_.Label(whole), kMaxCurvePoints));
+  return true;
+}
+
+Ring3 CurveReader::Points(StepValue list, uint32_t whole) const {
+  Ring3 points;
+  for (const StepValue item : list.Items()) {
+    points.push_back(placements_.Point(item));
+    if (points.size() > kMaxCurvePoints) break;
+  }
+  if (TooLong(points.size(), whole) || !model_.Spend(points.size(), whole)) points.clear();
   return points;
 }
 
@@ -133,17 +148,10 @@ CurvePoints CurveReader::Read(const IfcInstance& curve, int depth) const {
                 fmt::format("the curve {} contains itself or is nested more than {} deep", model_.Label(curve.index), kMaxDepth));
     return out;
   }
-  if (depth == 0) visits_ = 0;
-  if (++visits_ > kMaxVisits) {
-    if (visits_ == kMaxVisits + 1) {
-      model_.Emit(DiagnosticKind::kReferenceCycle, curve.index,
-                  fmt::format("a curve unfolds into more than {} parts, {} among them; the rest is left out", kMaxVisits, model_.Label(curve.index)));
-    }
-    return out;
-  }
+  if (!model_.Spend(1, curve.index)) return out;
   switch (curve.type) {
     case IfcType::kIfcPolyline:
-      for (const StepValue point : curve[attribute::kPolylinePoints].Items()) out.points.push_back(placements_.Point(point));
+      out.points = Points(curve[attribute::kPolylinePoints], curve.index);
       return out;
     case IfcType::kIfcIndexedPolyCurve: return Indexed(curve);
     case IfcType::kIfcCompositeCurve:
@@ -176,6 +184,7 @@ CurvePoints CurveReader::Composite(const IfcInstance& curve, int depth) const {
   CurvePoints out;
   for (const StepValue item : curve[attribute::kCompositeSegments].Items()) {
     const IfcInstance segment = model_.Follow(item);
+    if (model_.is_too_complex()) return {};
     if (!segment) continue;
     CurvePoints part = Read(model_.Follow(segment[attribute::kSegmentCurve]), depth + 1);
     if (part.points.empty()) continue;
@@ -186,6 +195,7 @@ CurvePoints CurveReader::Composite(const IfcInstance& curve, int depth) const {
       if ((part.points.front() - end).norm() > kSamePoint_m && (part.points.back() - end).norm() < 0.1 * (part.points.front() - end).norm())
         Reverse(part);
     }
+    if (TooLong(out.points.size() + part.points.size(), curve.index)) return {};
     Append(part, out);
   }
   return out;
@@ -287,10 +297,11 @@ CurvePoints CurveReader::Indexed(const IfcInstance& curve) const {
   const std::vector<Vector3d> points = PointList(model_.Follow(curve[attribute::kIndexedPoints]));
   const StepItems segments = curve[attribute::kIndexedSegments].Items();
   if (segments.empty()) {
-    out.points = points;
+    if (!TooLong(points.size(), curve.index)) out.points = points;
     return out;
   }
   for (const StepValue segment : segments) {
+    if (TooLong(out.points.size(), curve.index)) return {};
     std::vector<Vector3d> corners;
     for (const StepValue item : segment.Inner().Items()) {
       const auto number = item.Integer();
@@ -315,7 +326,7 @@ CurvePoints CurveReader::Spline(const IfcInstance& curve) const {
   CurvePoints out;
   const auto degree = curve[attribute::kSplineDegree].Integer().value_or(0);
   std::vector<Eigen::Vector4d> points;
-  for (const StepValue item : curve[attribute::kSplinePoints].Items()) points.push_back(placements_.Point(item).homogeneous());
+  for (const Vector3d& p : Points(curve[attribute::kSplinePoints], curve.index)) points.push_back(p.homogeneous());
   if (curve.type == IfcType::kIfcRationalBSplineCurveWithKnots) {
     const std::vector<double> weights = Numbers(curve[attribute::kSplineWeights]);
     for (size_t i = 0; i < std::min(weights.size(), points.size()); ++i) points[i] *= weights[i];

@@ -16,14 +16,19 @@ struct CurvePoints {
   std::vector<Arc> arcs;  // circular arcs that lie in the xy plane, exact
 };
 
+// A polygon of more corners would take triangulators and exact predicates minutes.
+inline constexpr size_t kMaxCurvePoints = 100000;
+
 class CurveReader {
  public:
   CurveReader(const IfcModel& model, const PlacementReader& placements, double chord_tolerance_m)
       : model_(model), placements_(placements), chord_tolerance_m_(chord_tolerance_m) {}
 
   // IfcPolyline, IfcIndexedPolyCurve, IfcCompositeCurve, IfcTrimmedCurve of lines and conics, IfcCircle, IfcEllipse,
-  // IfcBSplineCurveWithKnots. Empty, with an UnsupportedGeometry diagnostic, for others.
+  // IfcBSplineCurveWithKnots. Empty, with an UnsupportedGeometry diagnostic, for others, and with PlanTooComplex beyond kMaxCurvePoints.
   [[nodiscard]] CurvePoints Read(const IfcInstance& curve) const { return Read(curve, 0); }
+  // The points of a list of references; as for Read, `whole` is what they are of.
+  [[nodiscard]] Ring3 Points(StepValue list, uint32_t whole) const;
 
   // The same without its repeated points and as a ring in the xy plane.
   [[nodiscard]] Ring2 ReadRing(const IfcInstance& curve, std::vector<Arc>* arcs) const;
@@ -36,6 +41,7 @@ class CurveReader {
 
  private:
   [[nodiscard]] CurvePoints Read(const IfcInstance& curve, int depth) const;
+  [[nodiscard]] bool TooLong(size_t points, uint32_t whole) const;
   [[nodiscard]] CurvePoints Composite(const IfcInstance& curve, int depth) const;
   [[nodiscard]] CurvePoints Trimmed(const IfcInstance& curve, int depth) const;
   [[nodiscard]] CurvePoints Indexed(const IfcInstance& curve) const;
@@ -47,7 +53,6 @@ class CurveReader {
   const IfcModel& model_;
   const PlacementReader& placements_;
   double chord_tolerance_m_;
-  mutable size_t visits_ = 0;  // of the parts of the curve that is read
 };
 
 }  // namespace plumb::compiler

@@ -34,7 +34,7 @@ Ring3 FaceReader::Loop(const IfcInstance& loop) const {
   Ring3 ring;
   if (!loop) return ring;
   if (loop.type == IfcType::kIfcPolyLoop) {
-    for (const StepValue point : loop[attribute::kLoopPoints].Items()) ring.push_back(placements_.Point(point));
+    ring = curves_.Points(loop[attribute::kLoopPoints], loop.index);
   } else if (loop.type == IfcType::kIfcEdgeLoop) {
     ring = EdgeLoop(loop);
   }
@@ -50,7 +50,7 @@ Ring3 FaceReader::EdgeLoop(const IfcInstance& loop) const {
   };
   for (const StepValue item : loop[attribute::kLoopEdges].Items()) {
     const IfcInstance oriented = model_.Follow(item);
-    if (!oriented) continue;
+    if (!oriented || !model_.Spend(1, loop.index)) continue;
     const IfcInstance edge = model_.Follow(oriented[attribute::kOrientedEdgeElement]);
     if (!edge) continue;
     const Vector3d start = vertex(edge[attribute::kEdgeStart]), end = vertex(edge[attribute::kEdgeEnd]);
@@ -129,6 +129,7 @@ Solid FaceReader::Shell(const IfcInstance& shell) const {
   Solid solid;
   if (!shell) return solid;
   for (const StepValue item : shell[attribute::kShellFaces].Items()) {
+    if (!model_.Spend(1, shell.index)) break;
     if (const IfcInstance face = model_.Follow(item)) AppendIfcFace(face, solid);
     if (solid.triangles.size() > options_.max_triangles_per_element) break;
   }
@@ -199,6 +200,7 @@ Solid FaceReader::FaceSet(const IfcInstance& face_set) const {
     solid.vertices = std::move(points);
     AppendTriangles(face_set, solid.vertices.size(), solid);
   }
+  if (!model_.Spend(solid.triangles.size(), face_set.index)) return {};
   WeldSolid(options_.weld_tolerance_m, solid);
   OrientOutward(solid);
   return solid;

@@ -53,6 +53,7 @@ class Frontend {
         openings_(model, placements_, relations_, products_, options) {}
 
   PlanIr Run() {
+    if (model_.is_too_complex()) return {};
     ReadNorth();
     ReadStoreys();
     MakeElements();
@@ -292,9 +293,10 @@ std::optional<PlanIr> ReadIfc(const Source& source, DiagnosticSink& diagnostics,
   }
   if (!IsSupported(source, diagnostics)) return std::nullopt;
   std::optional<IfcModel> model = IfcModel::Open(source.bytes, diagnostics);
-  if (!model) return std::nullopt;
+  if (!model || model->is_refused()) return std::nullopt;
   ReadUnits(*model);
   PlanIr plan = Frontend(*model, options).Run();
+  if (model->is_refused()) return std::nullopt;
   plan.source_path = source.path;
   plan.source_format = model->schema_name();
   plan.source_sha256 = source.sha256;

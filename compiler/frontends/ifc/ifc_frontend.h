@@ -15,7 +15,8 @@
 
 namespace plumb::compiler {
 
-// None: the file is no IFC in STEP syntax of a known release, and an error says so. Same bytes and options, same result.
+// None: the file is no IFC in STEP syntax of a known release, or it leaves no plan to trust (it is cut off, contains itself, holds numbers
+// that are none, unfolds beyond the limits), and an error says so. Same bytes and options, same result.
 [[nodiscard]] std::optional<PlanIr> ReadIfc(const Source& source, DiagnosticSink& diagnostics);
 [[nodiscard]] std::optional<PlanIr> ReadIfc(const Source& source, DiagnosticSink& diagnostics, const IfcOptions& options);
 

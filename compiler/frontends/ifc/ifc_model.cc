@@ -21,6 +21,11 @@ constexpr size_t kGuidLength = 22;
 
 char Upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c; }
 
+bool Refuses(DiagnosticKind kind) {
+  return kind == DiagnosticKind::kFileCutOff || kind == DiagnosticKind::kReferenceCycle || kind == DiagnosticKind::kNumberNotFinite ||
+         kind == DiagnosticKind::kPlanTooComplex;
+}
+
 bool EqualsIgnoringCase(std::string_view a, std::string_view b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](char x, char y) { return Upper(x) == Upper(y); });
 }
@@ -28,6 +33,9 @@ bool EqualsIgnoringCase(std::string_view a, std::string_view b) {
 }  // namespace
 
 IfcModel::IfcModel(StepFile file, DiagnosticSink& diagnostics) : file_(std::move(file)), diagnostics_(&diagnostics) {
+  constexpr size_t kMinSteps = 1000000, kStepsPerByte = 4;
+  is_refused_ = !file_.is_whole();
+  steps_left_ = kMinSteps + kStepsPerByte * file_.text_size();
   types_.assign(file_.type_count(), IfcType::kUnknown);
   file_types_.assign(std::size(kTypeNames), kNoFileType);
   for (size_t t = 0; t < file_.type_count(); ++t) {
@@ -69,11 +77,10 @@ uint32_t IfcModel::Resolve(StepValue reference) const {
   const std::optional<uint64_t> id = reference.Reference();
   if (!id) return StepFile::kNone;
   const uint32_t index = file_.Find(*id);
-  if (index == StepFile::kNone && missing_ids_.insert(*id).second) {
+  if (index == StepFile::kNone && missing_ids_.size() < kMaxPerKind && missing_ids_.insert(*id).second) {
     SourceLocation location;
     location.step_id = *id;
-    diagnostics_->Emit(DiagnosticKind::kMissingReference, location,
-                       fmt::format("`#{}` is referred to, but the file has no such instance", *id));
+    EmitAt(DiagnosticKind::kMissingReference, location, fmt::format("`#{}` is referred to, but the file has no such instance", *id), {});
   }
   return index;
 }
@@ -86,9 +93,9 @@ IfcInstance IfcModel::Follow(StepValue reference) const {
 double IfcModel::Number(const IfcInstance& instance, size_t attribute_index, double fallback) const {
   const StepValue value = instance[attribute_index];
   if (value.is_null() || value.kind() == StepValue::Kind::kDerived) return fallback;
-  const std::optional<double> number = value.Real();
-  if (number && std::isfinite(*number)) return *number;
-  Emit(DiagnosticKind::kBadAttribute, instance.index,
+  if (const std::optional<double> number = value.Real()) return *number;
+  const DiagnosticKind kind = value.IsNotFinite() ? DiagnosticKind::kNumberNotFinite : DiagnosticKind::kBadAttribute;
+  Emit(kind, instance.index,
        fmt::format("attribute {} of {} is no number; it is taken as {}", attribute_index + 1, Label(instance.index), fallback));
   return fallback;
 }
@@ -96,7 +103,8 @@ double IfcModel::Number(const IfcInstance& instance, size_t attribute_index, dou
 double IfcModel::Length(const IfcInstance& instance, size_t attribute_index, double fallback) const {
   const double length_m = Number(instance, attribute_index, fallback / length_scale_) * length_scale_;
   if (std::abs(length_m) <= kMaxCoordinate_m) return length_m;
-  Emit(DiagnosticKind::kBadAttribute, instance.index,
+  const DiagnosticKind kind = std::abs(length_m) < kNoCoordinate_m ? DiagnosticKind::kBadAttribute : DiagnosticKind::kNumberNotFinite;
+  Emit(kind, instance.index,
        fmt::format("attribute {} of {} is over {} m; it is taken as {} m", attribute_index + 1, Label(instance.index), kMaxCoordinate_m, fallback));
   return fallback;
 }
@@ -119,7 +127,32 @@ SourceLocation IfcModel::Location(uint32_t index) const {
 std::string IfcModel::Label(uint32_t index) const { return fmt::format("`#{} {}`", file_.id(index), TypeName(index)); }
 
 void IfcModel::Emit(DiagnosticKind kind, uint32_t index, std::string message, std::string hint) const {
-  diagnostics_->Emit(kind, Location(index), std::move(message), std::move(hint));
+  EmitAt(kind, Location(index), std::move(message), std::move(hint));
+}
+
+bool IfcModel::Spend(size_t steps, uint32_t index) const {
+  if (steps <= steps_left_) {
+    steps_left_ -= steps;
+    return true;
+  }
+  steps_left_ = 0;
+  if (!is_too_complex_) {
+    Emit(DiagnosticKind::kPlanTooComplex, index,
+         fmt::format("the shapes of the file unfold out of all proportion to its {} bytes, {} among them", file_.text_size(), Label(index)));
+  }
+  return false;
+}
+
+void IfcModel::EmitAt(DiagnosticKind kind, SourceLocation location, std::string message, std::string hint) const {
+  is_refused_ |= Refuses(kind);
+  is_too_complex_ |= kind == DiagnosticKind::kPlanTooComplex;
+  // Cycles with many branches are met again and again: they use up the steps sooner.
+  constexpr size_t kStepsPerCycle = 1000;
+  if (kind == DiagnosticKind::kReferenceCycle) steps_left_ -= std::min(steps_left_, kStepsPerCycle);
+  const size_t count = ++emitted_[kind];
+  if (count > kMaxPerKind) return;
+  if (count == kMaxPerKind) message += "; further ones are not listed";
+  diagnostics_->Emit(kind, std::move(location), std::move(message), std::move(hint));
 }
 
 }  // namespace plumb::compiler

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <set>
 #include <span>
@@ -34,6 +35,9 @@ struct IfcInstance {
 
 // More than twice the Earth's circumference: beyond it a coordinate is a mistake, and products of coordinates would lose their meaning.
 inline constexpr double kMaxCoordinate_m = 1e8;
+// Beyond this it is no mistake but no number either, as is NaN: a file with such numbers is refused.
+inline constexpr double kNoCoordinate_m = 1e15;
+[[nodiscard]] inline bool IsNumber(const Eigen::Vector3d& p_m) { return p_m.allFinite() && p_m.cwiseAbs().maxCoeff() < kNoCoordinate_m; }
 [[nodiscard]] inline bool IsCoordinate(const Eigen::Vector3d& p_m) { return p_m.allFinite() && p_m.cwiseAbs().maxCoeff() <= kMaxCoordinate_m; }
 
 class IfcModel {
@@ -53,7 +57,7 @@ class IfcModel {
   [[nodiscard]] IfcInstance Follow(StepValue reference) const;
   [[nodiscard]] uint32_t Resolve(StepValue reference) const;  // the same, StepFile::kNone for none
 
-  // Numbers in metres and radians; `fallback` where the attribute is unset or (BadAttribute) no number.
+  // Numbers in metres and radians; `fallback` where the attribute is unset or (BadAttribute, NumberNotFinite) no number.
   [[nodiscard]] double Length(const IfcInstance& instance, size_t attribute_index, double fallback = 0) const;
   [[nodiscard]] double Number(const IfcInstance& instance, size_t attribute_index, double fallback = 0) const;
   [[nodiscard]] double length_scale() const { return length_scale_; }  // metres in a unit of the file
@@ -63,17 +67,30 @@ class IfcModel {
   [[nodiscard]] SourceLocation Location(uint32_t index) const;
   // `#12 IfcDoor`, as messages name an instance.
   [[nodiscard]] std::string Label(uint32_t index) const;
+  // At most kMaxPerKind of a kind, the last of which says so.
   void Emit(DiagnosticKind kind, uint32_t index, std::string message, std::string hint = {}) const;
+  // What was said about the file leaves no plan to trust: it is cut off, contains itself, holds numbers that are none, or is too complex.
+  [[nodiscard]] bool is_refused() const { return is_refused_; }
+  // It is not worth reading on.
+  [[nodiscard]] bool is_too_complex() const { return is_too_complex_; }
+  // Counts steps of reading shapes. A small file can share its parts so that they unfold without bound: false, with a PlanTooComplex
+  // diagnostic about `index`, once the steps are out of all proportion to the file.
+  [[nodiscard]] bool Spend(size_t steps, uint32_t index) const;
   [[nodiscard]] DiagnosticSink& diagnostics() const { return *diagnostics_; }
 
  private:
+  static constexpr size_t kMaxPerKind = 5000;
   IfcModel(StepFile file, DiagnosticSink& diagnostics);
+  void EmitAt(DiagnosticKind kind, SourceLocation location, std::string message, std::string hint) const;
 
   StepFile file_;
   DiagnosticSink* diagnostics_;
   std::vector<IfcType> types_;              // by the file's type number
   std::vector<uint16_t> file_types_;        // the file's type number by IfcType, or kNoFileType
   mutable std::set<uint64_t> missing_ids_;  // reported already
+  mutable std::map<DiagnosticKind, size_t> emitted_;
+  mutable size_t steps_left_;
+  mutable bool is_refused_ = false, is_too_complex_ = false;
   double length_scale_ = 1, angle_scale_ = 1;
 };
 

@@ -12,6 +12,7 @@ namespace plumb::compiler {
 OpeningTable::OpeningTable(const IfcModel& model, PlacementReader& placements, const Relations& relations, ProductTable& products,
                            const IfcOptions& options)
     : model_(model), placements_(placements), relations_(relations), products_(products), options_(options) {
+  of_product_.resize(products.size());
   std::vector<uint32_t> instances;
   for (const IfcType type : {IfcType::kIfcOpeningElement, IfcType::kIfcOpeningStandardCase, IfcType::kIfcVoidingFeature}) {
     const auto of_type = model.InstancesOf(type);
@@ -28,6 +29,7 @@ OpeningTable::OpeningTable(const IfcModel& model, PlacementReader& placements, c
       model.Emit(DiagnosticKind::kOpeningWithoutBody, instance,
                  fmt::format("the opening {} has no body that can be read; it cuts nothing", model.Label(instance)));
     }
+    if (opening.product != kNoIndex) of_product_[opening.product].push_back(openings_.size());
     openings_.push_back(std::move(opening));
   }
 }
@@ -40,10 +42,12 @@ std::vector<Opening*> OpeningTable::Cutting(uint32_t product) {
     const uint32_t p = products_.Root(at);
     if (p != kNoIndex && products_[p].parts.empty()) hosts.push_back(p);
   }
+  std::vector<size_t> numbers;
+  for (const uint32_t host : hosts) numbers.insert(numbers.end(), of_product_[host].begin(), of_product_[host].end());
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
   std::vector<Opening*> out;
-  for (Opening& opening : openings_) {
-    if (std::find(hosts.begin(), hosts.end(), opening.product) != hosts.end()) out.push_back(&opening);
-  }
+  for (const size_t o : numbers) out.push_back(&openings_[o]);
   return out;
 }
 
@@ -59,8 +63,9 @@ void OpeningTable::Cut(uint32_t product, ShapeParts& parts) {
 
 void OpeningTable::RestoreUncut(uint32_t product, Solid& uncut) {
   const Solid before = uncut;
-  for (Opening& opening : openings_) {
-    if (opening.product != product || opening.cuts) continue;
+  for (const size_t o : of_product_[product]) {
+    Opening& opening = openings_[o];
+    if (opening.cuts) continue;
     const StepValue placement = model_.Get(products_[product].instance)[attribute::kPlacement];
     for (const Solid& solid : opening.solids) {
       const Solid piece = PieceCutBefore(solid, placements_.ObjectPlacement(placement), before, options_);

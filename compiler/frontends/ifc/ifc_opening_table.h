@@ -41,6 +41,7 @@ class OpeningTable {
   const ProductTable& products_;
   const IfcOptions& options_;
   std::vector<Opening> openings_;
+  std::vector<std::vector<size_t>> of_product_;  // the openings that void it
 };
 
 }  // namespace plumb::compiler

@@ -12,6 +12,29 @@ namespace {
 
 constexpr double kMinRemoved_m3 = 1e-9, kMinPiece_m3 = 1e-4;
 
+// A candidate with some air around it.
+struct Grown {
+  size_t number = 0;
+  Eigen::AlignedBox3d box;
+};
+
+std::vector<Grown> SortedByX(const std::vector<FillCandidate>& candidates, double margin_m) {
+  std::vector<Grown> out;
+  for (size_t i = 0; i < candidates.size(); ++i) {
+    if (candidates[i].box.isEmpty()) continue;
+    const Eigen::Vector3d margin = Eigen::Vector3d::Constant(margin_m);
+    out.push_back({i, Eigen::AlignedBox3d(candidates[i].box.min() - margin, candidates[i].box.max() + margin)});
+  }
+  std::stable_sort(out.begin(), out.end(), [](const Grown& a, const Grown& b) { return a.box.min().x() < b.box.min().x(); });
+  return out;
+}
+
+double LongestX(const std::vector<Grown>& boxes) {
+  double longest_m = 0;
+  for (const Grown& b : boxes) longest_m = std::max(longest_m, b.box.sizes().x());
+  return longest_m;
+}
+
 }  // namespace
 
 bool CutOpening(const IfcModel& model, CutPair pair, const IfcOptions& options, const Solid& tool, Solid& body) {
@@ -57,27 +80,27 @@ Solid PieceCutBefore(const Solid& opening, const Eigen::Isometry3d& T_plan_wall,
 
 std::vector<std::pair<uint32_t, uint32_t>> MatchFillings(const std::vector<FillCandidate>& fillings,
                                                          const std::vector<FillCandidate>& openings, double min_overlap) {
-  constexpr double kMargin_m = 0.05;  // thin leaves get a body, frames may stand out a little
+  constexpr double kMargin_m = 0.05;        // thin leaves get a body, frames may stand out a little
+  constexpr size_t kMaxPairs = 10000000;  // only doors heaped on one another come near it
   struct Pair {
     double score;
     size_t filling, opening;
   };
   std::vector<Pair> pairs;
-  for (size_t f = 0; f < fillings.size(); ++f) {
-    Eigen::AlignedBox3d box = fillings[f].box;
-    if (box.isEmpty()) continue;
-    box.min().array() -= kMargin_m;
-    box.max().array() += kMargin_m;
-    for (size_t o = 0; o < openings.size(); ++o) {
-      Eigen::AlignedBox3d hole = openings[o].box;
-      hole.min().array() -= kMargin_m;
-      hole.max().array() += kMargin_m;
-      const Eigen::AlignedBox3d common = box.intersection(hole);
+  const std::vector<Grown> holes = SortedByX(openings, kMargin_m);
+  const double longest_m = LongestX(holes);
+  for (const Grown& filling : SortedByX(fillings, kMargin_m)) {
+    // No hole is longer than the longest: those that begin before its length back end before the filling.
+    const double first_x = filling.box.min().x() - longest_m;
+    auto hole = std::lower_bound(holes.begin(), holes.end(), first_x, [](const Grown& h, double x) { return h.box.min().x() < x; });
+    for (; hole != holes.end() && hole->box.min().x() <= filling.box.max().x(); ++hole) {
+      const Eigen::AlignedBox3d common = filling.box.intersection(hole->box);
       if (common.isEmpty()) continue;
-      const double overlap = common.volume() / box.volume();
-      const double height_ratio = common.sizes().z() / box.merged(hole).sizes().z();
-      if (overlap >= min_overlap && height_ratio >= min_overlap) pairs.push_back({overlap * height_ratio, f, o});
+      const double overlap = common.volume() / filling.box.volume();
+      const double height_ratio = common.sizes().z() / filling.box.merged(hole->box).sizes().z();
+      if (overlap >= min_overlap && height_ratio >= min_overlap) pairs.push_back({overlap * height_ratio, filling.number, hole->number});
     }
+    if (pairs.size() > kMaxPairs) break;
   }
   std::sort(pairs.begin(), pairs.end(),
             [](const Pair& a, const Pair& b) { return std::tie(b.score, a.filling, a.opening) < std::tie(a.score, b.filling, b.opening); });

@@ -19,6 +19,7 @@ std::string IfcOptions::Check() const {
         between("fill_min_overlap", fill_min_overlap, 0, 1)}) {
     if (!problem.empty()) return problem;
   }
+  if (max_triangles == 0) return "IfcOptions.max_triangles = 0; must be positive";
   if (max_triangles_per_element == 0) return "IfcOptions.max_triangles_per_element = 0; must be positive";
   return {};
 }

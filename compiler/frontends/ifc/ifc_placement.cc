@@ -28,29 +28,32 @@ Eigen::Matrix3d Frame(const Vector3d& axis, const Vector3d& reference) {
   return frame;
 }
 
-// Up to three numbers of a list; false if one is no finite number.
-bool ReadTriple(StepValue list, Vector3d& out) {
+
+}  // namespace
+
+TripleStatus ReadTriple(StepValue list, Vector3d& out) {
   out.setZero();
   int n = 0;
   for (const StepValue item : list.Items()) {
     if (n == 3) break;
     const auto number = item.Real();
-    if (!number || !std::isfinite(*number)) return false;
+    if (!number) return item.IsNotFinite() ? TripleStatus::kNotFinite : TripleStatus::kBad;
     out[n++] = *number;
   }
-  return n > 0;
+  return n > 0 ? TripleStatus::kGood : TripleStatus::kBad;
 }
-
-}  // namespace
 
 Vector3d PlacementReader::Point(const IfcInstance& point) const {
   if (!point) return Vector3d::Zero();
-  Vector3d p;
-  if (point.type == IfcType::kIfcCartesianPoint && ReadTriple(point[attribute::kCoordinates], p)) {
+  Vector3d p = Vector3d::Zero();
+  DiagnosticKind problem = DiagnosticKind::kBadAttribute;
+  if (point.type == IfcType::kIfcCartesianPoint) {
+    const TripleStatus status = ReadTriple(point[attribute::kCoordinates], p);
     p *= model_.length_scale();
-    if (IsCoordinate(p)) return p;
+    if (status == TripleStatus::kGood && IsCoordinate(p)) return p;
+    if (status == TripleStatus::kNotFinite || !IsNumber(p)) problem = DiagnosticKind::kNumberNotFinite;
   }
-  model_.Emit(DiagnosticKind::kBadAttribute, point.index,
+  model_.Emit(problem, point.index,
               fmt::format("{} gives no coordinates within {} m; it is taken as the origin", model_.Label(point.index), kMaxCoordinate_m));
   return Vector3d::Zero();
 }
@@ -58,9 +61,14 @@ Vector3d PlacementReader::Point(const IfcInstance& point) const {
 Vector3d PlacementReader::Direction(StepValue reference, const Vector3d& fallback) const {
   const IfcInstance direction = model_.Follow(reference);
   if (!direction) return fallback;
-  Vector3d d;
-  if (direction.type == IfcType::kIfcDirection && ReadTriple(direction[attribute::kDirectionRatios], d) && d.norm() > 1e-12) return d;
-  model_.Emit(DiagnosticKind::kBadAttribute, direction.index,
+  Vector3d d = Vector3d::Zero();
+  const bool is_direction = direction.type == IfcType::kIfcDirection;
+  const TripleStatus status = is_direction ? ReadTriple(direction[attribute::kDirectionRatios], d) : TripleStatus::kBad;
+  const double largest = d.cwiseAbs().maxCoeff();
+  // Only the ratios count: scaled so that no square overflows or vanishes.
+  if (status == TripleStatus::kGood && largest > 1e-12) return largest > 1e12 ? Vector3d(d / largest) : d;
+  const DiagnosticKind problem = status == TripleStatus::kNotFinite ? DiagnosticKind::kNumberNotFinite : DiagnosticKind::kBadAttribute;
+  model_.Emit(problem, direction.index,
               fmt::format("{} has no length; the default direction is taken", model_.Label(direction.index)));
   return fallback;
 }
@@ -106,10 +114,27 @@ Isometry3d PlacementReader::ObjectPlacement(StepValue reference) {
                                                                                            : IfcInstance();
   }
   for (auto it = chain.rbegin(); it != chain.rend(); ++it) {
-    T = T * OwnPlacement(*it);
+    const Isometry3d T_next = T * OwnPlacement(*it);
+    if (IsCoordinate(T_next.translation())) {
+      T = T_next;
+    } else {
+      model_.Emit(DiagnosticKind::kBadAttribute, it->index,
+                  fmt::format("the placement {} lies over {} m from the origin; what it places stands where it is relative to",
+                              model_.Label(it->index), kMaxCoordinate_m));
+    }
     T_plan_placement_.emplace(it->index, T);
   }
   return T;
+}
+
+double PlacementReader::Scale(const IfcInstance& op, size_t attribute_index, double fallback) const {
+  constexpr double kMaxScale = 1e6;
+  const double scale = model_.Number(op, attribute_index, fallback);
+  if (std::abs(scale) <= kMaxScale && std::abs(scale) >= 1 / kMaxScale) return scale;
+  model_.Emit(DiagnosticKind::kBadAttribute, op.index,
+              fmt::format("the scale {} of {} is not within {} and {}; it is taken as {}", scale, model_.Label(op.index), 1 / kMaxScale,
+                          kMaxScale, fallback));
+  return fallback;
 }
 
 Affine3d PlacementReader::Operator(StepValue reference) const {
@@ -118,13 +143,13 @@ Affine3d PlacementReader::Operator(StepValue reference) const {
   if (!op) return T;
   const bool is_2d =
       op.type == IfcType::kIfcCartesianTransformationOperator2D || op.type == IfcType::kIfcCartesianTransformationOperator2DnonUniform;
-  const double scale = model_.Number(op, attribute::kOperatorScale, 1);
+  const double scale = Scale(op, attribute::kOperatorScale, 1);
   Vector3d scales = Vector3d::Constant(scale);
   if (op.type == IfcType::kIfcCartesianTransformationOperator3DnonUniform) {
-    scales.y() = model_.Number(op, attribute::kOperatorScale2, scale);
-    scales.z() = model_.Number(op, attribute::kOperatorScale3, scale);
+    scales.y() = Scale(op, attribute::kOperatorScale2, scale);
+    scales.z() = Scale(op, attribute::kOperatorScale3, scale);
   } else if (op.type == IfcType::kIfcCartesianTransformationOperator2DnonUniform) {
-    scales.y() = model_.Number(op, attribute::kOperatorScale2In2D, scale);
+    scales.y() = Scale(op, attribute::kOperatorScale2In2D, scale);
   }
   const Vector3d axis3 = is_2d ? Vector3d::UnitZ() : Direction(op[attribute::kOperatorAxis3], Vector3d::UnitZ());
   Eigen::Matrix3d frame = Frame(axis3, Direction(op[attribute::kOperatorAxis1], Vector3d::UnitX()));

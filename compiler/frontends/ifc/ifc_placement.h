@@ -8,6 +8,10 @@
 
 namespace plumb::compiler {
 
+enum class TripleStatus { kGood, kBad, kNotFinite };
+// Up to three numbers of a list; what is not stated is zero.
+[[nodiscard]] TripleStatus ReadTriple(StepValue list, Eigen::Vector3d& out);
+
 class PlacementReader {
  public:
   explicit PlacementReader(const IfcModel& model) : model_(model) {}
@@ -21,13 +25,14 @@ class PlacementReader {
   // IfcAxis2Placement3D, or IfcAxis2Placement2D in the xy plane; the identity if unset.
   [[nodiscard]] Eigen::Isometry3d AxisPlacement(StepValue reference) const;
   // IfcObjectPlacement with all that it is relative to, to the plan frame. The identity if unset. Cycles and chains of over 200 placements
-  // end with a ReferenceCycle diagnostic. Cached.
+  // end with a ReferenceCycle diagnostic; placements over kMaxCoordinate_m from the origin are left out (BadAttribute). Cached.
   [[nodiscard]] Eigen::Isometry3d ObjectPlacement(StepValue reference);
   // IfcCartesianTransformationOperator, 2D or 3D, uniform or not.
   [[nodiscard]] Eigen::Affine3d Operator(StepValue reference) const;
 
  private:
   [[nodiscard]] Eigen::Isometry3d OwnPlacement(const IfcInstance& placement) const;
+  [[nodiscard]] double Scale(const IfcInstance& op, size_t attribute_index, double fallback) const;
 
   const IfcModel& model_;
   std::unordered_map<uint32_t, Eigen::Isometry3d> T_plan_placement_;

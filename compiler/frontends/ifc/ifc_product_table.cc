@@ -1,5 +1,7 @@
 #include "compiler/frontends/ifc/ifc_product_table.h"
 
+#include <fmt/format.h>
+
 #include <iterator>
 #include <utility>
 
@@ -13,6 +15,7 @@ ProductTable::ProductTable(const IfcModel& model, PlacementReader& placements, c
   const ProductKinds kinds(model);
   product_of_.assign(model.size(), kNoIndex);
   for (const uint32_t instance : kinds.Products()) {
+    if (model.is_too_complex()) break;
     product_of_[instance] = size();
     products_.push_back(Read(instance, *kinds.Of(instance)));
   }
@@ -26,7 +29,15 @@ ShapeParts ProductTable::PlacedBody(uint32_t instance) {
   if (shape.is_null()) return {};
   ShapeParts parts = shapes_.Body(model_.Follow(shape));
   const Eigen::Affine3d T_plan_product(placements_.ObjectPlacement(product[attribute::kPlacement]).matrix());
-  for (ShapePart& part : parts) TransformPart(T_plan_product, part);
+  for (ShapePart& part : parts) {
+    TransformPart(T_plan_product, part);
+    triangles_ += part.solid.triangles.size();
+  }
+  KeepInRange(model_, instance, parts);
+  if (triangles_ > options_.max_triangles && !model_.is_too_complex()) {
+    model_.Emit(DiagnosticKind::kPlanTooComplex, instance,
+                fmt::format("the bodies up to {} have over {} triangles; at most that many are read", model_.Label(instance), options_.max_triangles));
+  }
   return parts;
 }
 

@@ -35,7 +35,8 @@ class ProductTable {
   [[nodiscard]] const Product& operator[](uint32_t product) const { return products_[product]; }
   // The product that an instance became part of; kNoIndex if it is none.
   [[nodiscard]] uint32_t Root(uint32_t instance) const;
-  // The body of any instance with placement and shape, in the plan frame.
+  // The body of any instance with placement and shape, in the plan frame. Beyond IfcOptions.max_triangles of all bodies together:
+  // PlanTooComplex.
   [[nodiscard]] ShapeParts PlacedBody(uint32_t instance);
 
  private:
@@ -55,6 +56,7 @@ class ProductTable {
   ShapeReader& shapes_;
   const Relations& relations_;
   const IfcOptions& options_;
+  size_t triangles_ = 0;              // of all bodies
   std::vector<uint32_t> product_of_;  // by instance
   std::vector<Product> products_;
 };

@@ -15,8 +15,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr int kMaxDepth = 16;
-constexpr size_t kMaxVisits = 20000;  // of the parts of one profile, which a small file can share so that they unfold exponentially
-constexpr double kSamePoint_m = 1e-6;
 
 Ring2 Rectangle(double x_m, double y_m) { return {{-x_m / 2, -y_m / 2}, {x_m / 2, -y_m / 2}, {x_m / 2, y_m / 2}, {-x_m / 2, y_m / 2}}; }
 
@@ -68,15 +66,7 @@ Profile ProfileReader::Read(const IfcInstance& profile, int depth) const {
                 fmt::format("the profile {} contains itself or is nested more than {} deep", model_.Label(profile.index), kMaxDepth));
     return out;
   }
-  if (depth == 0) visits_ = 0;
-  if (++visits_ > kMaxVisits) {
-    if (visits_ == kMaxVisits + 1) {
-      model_.Emit(DiagnosticKind::kReferenceCycle, profile.index,
-                  fmt::format("a profile unfolds into more than {} parts, {} among them; the rest is left out", kMaxVisits,
-                              model_.Label(profile.index)));
-    }
-    return out;
-  }
+  if (!model_.Spend(1, profile.index)) return out;
   switch (profile.type) {
     case IfcType::kIfcArbitraryClosedProfileDef:
     case IfcType::kIfcArbitraryProfileDefWithVoids: return Arbitrary(profile);

@@ -33,7 +33,6 @@ class ProfileReader {
   const PlacementReader& placements_;
   const CurveReader& curves_;
   double chord_tolerance_m_;
-  mutable size_t visits_ = 0;  // of the parts of the profile that is read
 };
 
 }  // namespace plumb::compiler

@@ -20,7 +20,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr int kMaxDepth = 300;
-constexpr size_t kMaxVisits = 200000;  // of items in one body: a small file can share its items so that they unfold exponentially
 constexpr int kDiskSides = 8;
 
 size_t CountTriangles(const ShapeParts& parts) {
@@ -33,6 +32,12 @@ ShapeParts OnePart(Solid solid) {
   ShapeParts parts;
   if (!solid.empty()) parts.push_back({std::move(solid), Look::kUnstated, {}, Affine3d::Identity()});
   return parts;
+}
+
+bool IsBoolean(IfcType type) { return type == IfcType::kIfcBooleanResult || type == IfcType::kIfcBooleanClippingResult; }
+
+bool IsHalfSpace(IfcType type) {
+  return type == IfcType::kIfcHalfSpaceSolid || type == IfcType::kIfcPolygonalBoundedHalfSpace || type == IfcType::kIfcBoxedHalfSpace;
 }
 
 // How well a representation serves as the body: higher is better, 0 not at all.
@@ -58,6 +63,13 @@ void TransformPart(const Affine3d& T_out_part, ShapePart& part) {
   part.T_part_profile = T_out_part * part.T_part_profile;
 }
 
+void KeepInRange(const IfcModel& model, uint32_t instance, ShapeParts& parts) {
+  const auto is_out = [](const ShapePart& part) { return !std::all_of(part.solid.vertices.begin(), part.solid.vertices.end(), IsCoordinate); };
+  if (std::erase_if(parts, is_out) == 0) return;
+  model.Emit(DiagnosticKind::kBadAttribute, instance,
+             fmt::format("parts of {} reach over {} m from the origin; they are left out", model.Label(instance), kMaxCoordinate_m));
+}
+
 ShapeReader::ShapeReader(const IfcModel& model, const PlacementReader& placements, const StyleReader& styles, const IfcOptions& options)
     : model_(model),
       placements_(placements),
@@ -69,7 +81,6 @@ ShapeReader::ShapeReader(const IfcModel& model, const PlacementReader& placement
 
 ShapeParts ShapeReader::Body(const IfcInstance& definition_shape) {
   if (!definition_shape || definition_shape.type != IfcType::kIfcProductDefinitionShape) return {};
-  visits_ = 0;
   std::vector<std::pair<int, IfcInstance>> ranked;
   for (const StepValue item : definition_shape[attribute::kShapeRepresentations].Items()) {
     const IfcInstance representation = model_.Follow(item);
@@ -132,21 +143,19 @@ ShapeParts ShapeReader::Item(const IfcInstance& item, int depth) {
                 fmt::format("the shape {} contains itself or is nested more than {} deep", model_.Label(item.index), kMaxDepth));
     return {};
   }
-  if (++visits_ > kMaxVisits) {
-    if (visits_ == kMaxVisits + 1) {
-      model_.Emit(DiagnosticKind::kReferenceCycle, item.index,
-                  fmt::format("a shape unfolds into more than {} items, {} among them; the rest is left out", kMaxVisits, model_.Label(item.index)));
-    }
-    return {};
-  }
+  if (!model_.Spend(1, item.index)) return {};
   ShapeParts parts = ReadItem(item, depth);
-  // A style on the whole holds where the parts state none of their own.
-  if (const Look look = styles_.OfItem(item.index); look != Look::kUnstated) {
-    for (ShapePart& part : parts) {
-      if (part.look == Look::kUnstated) part.look = look;
-    }
-  }
+  ApplyLook(item, parts);
   return parts;
+}
+
+// A style on the whole holds where the parts state none of their own.
+void ShapeReader::ApplyLook(const IfcInstance& item, ShapeParts& parts) const {
+  const Look look = styles_.OfItem(item.index);
+  if (look == Look::kUnstated) return;
+  for (ShapePart& part : parts) {
+    if (part.look == Look::kUnstated) part.look = look;
+  }
 }
 
 ShapeParts ShapeReader::ReadItem(const IfcInstance& item, int depth) {
@@ -209,6 +218,7 @@ ShapeParts ShapeReader::Mapped(const IfcInstance& item, int depth) {
   ShapeParts parts = *known_parts;
   const Affine3d T = placements_.Operator(item[attribute::kMappingTarget]);
   for (ShapePart& part : parts) TransformPart(T, part);
+  KeepInRange(model_, item.index, parts);
   return parts;
 }
 
@@ -304,24 +314,41 @@ Solid ShapeReader::BoundingBox(const IfcInstance& item) const {
   return size.minCoeff() > 0 ? MakeBox(corner, corner + size) : Solid();
 }
 
+// Programs cut a wall by a chain of results, each the first operand of the next: as long as the wall has cuts, so it takes no stack.
 ShapeParts ShapeReader::Boolean(const IfcInstance& item, int depth) {
-  const IfcInstance first = model_.Follow(item[attribute::kFirstOperand]), second = model_.Follow(item[attribute::kSecondOperand]);
-  if (!first) return {};
-  ShapeParts parts = Item(first, depth + 1);
-  if (!second || parts.empty()) return parts;
-  const std::string_view op = item[attribute::kBooleanOperator].Enumeration();
-  const bool is_half_space = second.type == IfcType::kIfcHalfSpaceSolid || second.type == IfcType::kIfcPolygonalBoundedHalfSpace ||
-                             second.type == IfcType::kIfcBoxedHalfSpace;
-  if (is_half_space) {
-    if (op == "DIFFERENCE") {
-      SubtractHalfSpace(second, item.index, parts);
-    } else {
-      model_.Emit(DiagnosticKind::kUnsupportedGeometry, item.index,
-                  fmt::format("{} combines a half space by {}; only DIFFERENCE is read", model_.Label(item.index), op));
+  const size_t longest = model_.InstancesOf(IfcType::kIfcBooleanResult).size() + model_.InstancesOf(IfcType::kIfcBooleanClippingResult).size();
+  std::vector<IfcInstance> chain;
+  IfcInstance at = item;
+  for (; at && IsBoolean(at.type); at = model_.Follow(at[attribute::kFirstOperand])) {
+    if (chain.size() == longest) {
+      model_.Emit(DiagnosticKind::kReferenceCycle, at.index, fmt::format("the shape {} contains itself", model_.Label(at.index)));
+      return {};
     }
-    return parts;
+    chain.push_back(at);
   }
-  if (TooLarge(parts, item.index)) return parts;
+  if (!at) return {};
+  ShapeParts parts = Item(at, depth + 1);
+  for (auto it = chain.rbegin(); it != chain.rend() && !parts.empty(); ++it) {
+    Combine(*it, depth, parts);
+    if (it + 1 != chain.rend()) ApplyLook(*it, parts);  // Item does it for the last
+  }
+  return parts;
+}
+
+void ShapeReader::Combine(const IfcInstance& item, int depth, ShapeParts& parts) {
+  const IfcInstance second = model_.Follow(item[attribute::kSecondOperand]);
+  if (!second || !model_.Spend(1 + CountTriangles(parts), item.index)) return;
+  const std::string_view op = item[attribute::kBooleanOperator].Enumeration();
+  if (IsHalfSpace(second.type)) {
+    if (op == "UNION") {
+      model_.Emit(DiagnosticKind::kUnsupportedGeometry, item.index,
+                  fmt::format("{} joins a half space, which has no end; it is left out", model_.Label(item.index)));
+    } else {
+      CutByHalfSpace(second, item.index, op == "INTERSECTION", parts);
+    }
+    return;
+  }
+  if (TooLarge(parts, item.index)) return;
   ShapeParts tools = Item(second, depth + 1);
   if (op == "UNION") {
     parts.insert(parts.end(), std::make_move_iterator(tools.begin()), std::make_move_iterator(tools.end()));
@@ -330,7 +357,6 @@ ShapeParts ShapeReader::Boolean(const IfcInstance& item, int depth) {
   } else {
     SubtractParts(tools, item.index, parts);
   }
-  return parts;
 }
 
 void ShapeReader::SubtractParts(const ShapeParts& tools, uint32_t result, ShapeParts& parts) const {
@@ -355,7 +381,7 @@ void ShapeReader::IntersectParts(const ShapeParts& tools, uint32_t result, Shape
   SubtractParts(outside, result, parts);
 }
 
-void ShapeReader::SubtractHalfSpace(const IfcInstance& half_space, uint32_t result, ShapeParts& parts) const {
+void ShapeReader::CutByHalfSpace(const IfcInstance& half_space, uint32_t result, bool keep_inside, ShapeParts& parts) const {
   const IfcInstance plane = model_.Follow(half_space[attribute::kHalfSpaceSurface]);
   if (!plane || plane.type != IfcType::kIfcPlane) {
     model_.Emit(DiagnosticKind::kUnsupportedGeometry, half_space.index,
@@ -363,7 +389,7 @@ void ShapeReader::SubtractHalfSpace(const IfcInstance& half_space, uint32_t resu
     return;
   }
   const Isometry3d T_plane = placements_.AxisPlacement(plane[attribute::kSurfacePosition]);
-  // AgreementFlag true: the plane's normal points out of the half space's material, which is what is cut away.
+  // AgreementFlag true: the plane's normal points out of the half space's material.
   const bool agreement = half_space[attribute::kHalfSpaceAgreement].Boolean().value_or(true);
   const Vector3d n = agreement ? Vector3d(T_plane.linear().col(2)) : Vector3d(-T_plane.linear().col(2));
   const double d_m = -n.dot(T_plane.translation());
@@ -386,8 +412,9 @@ void ShapeReader::SubtractHalfSpace(const IfcInstance& half_space, uint32_t resu
       TransformSolid(Affine3d(T_boundary.matrix()) * Eigen::Translation3d(0, 0, low_m), prism);
       rest = CutByPlane(prism, n, d_m, csg);
       if (rest) rest = Subtract(part.solid, *rest, csg);
+      if (rest && keep_inside) rest = Subtract(part.solid, *rest, csg);
     } else {
-      rest = CutByPlane(part.solid, -n, -d_m, csg);
+      rest = keep_inside ? CutByPlane(part.solid, n, d_m, csg) : CutByPlane(part.solid, -n, -d_m, csg);
     }
     if (rest) {
       part.solid = std::move(*rest);

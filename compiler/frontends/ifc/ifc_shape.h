@@ -24,6 +24,8 @@ struct ShapePart {
 using ShapeParts = std::vector<ShapePart>;
 
 void TransformPart(const Eigen::Affine3d& T_out_part, ShapePart& part);
+// Leaves out the parts with vertices over kMaxCoordinate_m from the origin, with a diagnostic about `instance`.
+void KeepInRange(const IfcModel& model, uint32_t instance, ShapeParts& parts);
 
 class ShapeReader {
  public:
@@ -50,7 +52,9 @@ class ShapeReader {
   [[nodiscard]] ShapeParts Primitive(const IfcInstance& item);
   [[nodiscard]] ShapeParts Boolean(const IfcInstance& item, int depth);
   [[nodiscard]] ShapeParts SurfaceModel(const IfcInstance& item);
-  void SubtractHalfSpace(const IfcInstance& half_space, uint32_t result, ShapeParts& parts) const;
+  void Combine(const IfcInstance& item, int depth, ShapeParts& parts);
+  void ApplyLook(const IfcInstance& item, ShapeParts& parts) const;
+  void CutByHalfSpace(const IfcInstance& half_space, uint32_t result, bool keep_inside, ShapeParts& parts) const;
   void SubtractParts(const ShapeParts& tools, uint32_t result, ShapeParts& parts) const;
   void IntersectParts(const ShapeParts& tools, uint32_t result, ShapeParts& parts) const;
   [[nodiscard]] Solid BoundingBox(const IfcInstance& item) const;
@@ -63,7 +67,6 @@ class ShapeReader {
   ProfileReader profiles_;
   FaceReader faces_;
   std::unordered_map<uint32_t, std::optional<ShapeParts>> mapped_;  // by IfcRepresentationMap, in its own frame; none while it is read
-  size_t visits_ = 0;                                               // of items in the body that is read
 };
 
 }  // namespace plumb::compiler

@@ -7,7 +7,6 @@ namespace plumb::compiler {
 namespace {
 
 constexpr int kMaxDepth = 8;
-constexpr size_t kMaxVisits = 20000;  // of the parts of one style or material, which a small file can share so that they unfold exponentially
 constexpr std::string_view kGlass[] = {"glas", "glaz", "verre", "vitr", "vidr", "vetro"};
 constexpr std::string_view kNotGlass[] = {"glaswol",   "glass wool", "glasswool", "glasfaser",   "glasvlies",
                                           "glass fib", "fiberglas",  "fibreglas", "glass block", "glasbaustein"};
@@ -55,8 +54,7 @@ StyleReader::StyleReader(const IfcModel& model, double glass_transparency) : mod
 
 Look StyleReader::OfStyle(const IfcInstance& style, int depth) const {
   Look look = Look::kUnstated;
-  if (depth == 0) visits_ = 0;
-  if (!style || depth > kMaxDepth || ++visits_ > kMaxVisits) return look;
+  if (!style || depth > kMaxDepth || !model_.Spend(1, style.index)) return look;
   switch (style.type) {
     case IfcType::kIfcPresentationStyleAssignment:
       for (const StepValue item : style[attribute::kStyleAssignmentStyles].Items())
@@ -82,8 +80,7 @@ Look StyleReader::OfItem(uint32_t item) const {
 }
 
 Look StyleReader::OfMaterial(const IfcInstance& material, int depth) const {
-  if (depth == 0) visits_ = 0;
-  if (!material || depth > kMaxDepth || ++visits_ > kMaxVisits) return Look::kUnstated;
+  if (!material || depth > kMaxDepth || !model_.Spend(1, material.index)) return Look::kUnstated;
   const auto all_of = [&](StepItems items) {
     Look look = Look::kUnstated;
     for (const StepValue item : items) {

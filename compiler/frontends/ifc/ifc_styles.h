@@ -27,7 +27,6 @@ class StyleReader {
 
   const IfcModel& model_;
   double glass_transparency_;
-  mutable size_t visits_ = 0;  // of the parts of the style or material that is read
   std::unordered_map<uint32_t, Look> by_item_, by_material_;
 };
 

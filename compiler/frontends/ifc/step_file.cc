@@ -10,7 +10,7 @@
 namespace plumb::compiler {
 namespace {
 
-constexpr size_t kLineBlockBytes = size_t{1} << 16;
+constexpr size_t kLineBlockBytes = size_t{1} << 11;
 constexpr size_t kMaxSyntaxDiagnostics = 50;
 constexpr size_t kMaxTypes = 0xfffe;
 
@@ -79,7 +79,12 @@ class StepIndexer {
       if (p == end_) break;
       p = *p == '#' ? Instance(p) : Keyword(p);
     }
-    if (!closed_ && !truncated_) Complain(end_, "the file ends before `END-ISO-10303-21;`: it was cut off");
+    if (!closed_ && !truncated_) {
+      truncated_ = !data_ended_;
+      const DiagnosticKind kind = truncated_ ? DiagnosticKind::kFileCutOff : DiagnosticKind::kStepSyntax;
+      Complain(end_, "the file ends before `END-ISO-10303-21;`", kind);
+    }
+    file_.is_whole_ = !truncated_;
     file_.BuildLookup(diagnostics_);
     file_.BuildTypeLists();
     return std::move(file_);
@@ -98,13 +103,14 @@ class StepIndexer {
     }
   }
 
-  void Complain(const char* at, std::string message) {
-    if (++complaints_ > kMaxSyntaxDiagnostics) return;
+  void Complain(const char* at, std::string message, DiagnosticKind kind = DiagnosticKind::kStepSyntax) {
+    const bool is_listed = kind == DiagnosticKind::kFileCutOff || ++complaints_ <= kMaxSyntaxDiagnostics;
+    if (!is_listed) return;
     if (complaints_ == kMaxSyntaxDiagnostics) message += "; further syntax errors are not listed";
     SourceLocation location;
     location.line = file_.LineAt(static_cast<size_t>(at - begin_));
     location.column = file_.ColumnAt(static_cast<size_t>(at - begin_));
-    diagnostics_.Emit(DiagnosticKind::kStepSyntax, location, std::move(message));
+    diagnostics_.Emit(kind, location, std::move(message));
   }
 
   // p at `#`. Returns where to go on.
@@ -141,6 +147,8 @@ class StepIndexer {
       closed_ = true;
       return end_;
     }
+    if (word == "DATA") data_ended_ = false, in_data_ = true;
+    if (word == "ENDSEC") data_ended_ = in_data_;
     p = SkipStepSpace(p, end_);
     if (word == "FILE_SCHEMA" && p != end_ && *p == '(') ReadSchema(p);
     return Terminator(name, p);
@@ -171,15 +179,15 @@ class StepIndexer {
       if (limit == stop) {
         if (stop != end_) return stop + 1;
         truncated_ = true;
-        Complain(start, "the file ends inside this statement: it was cut off");
+        Complain(start, "the file ends inside this statement", DiagnosticKind::kFileCutOff);
         return end_;
       }
       const char* close = Next(limit + 1, '\'', quote_);
       const char* inside = InstanceInString(limit + 1, close);
       if (inside != nullptr || close == end_) {
-        Complain(limit, "a string has no closing quote");
-        if (inside == nullptr) truncated_ = true;
-        return inside != nullptr ? inside : end_;
+        truncated_ = inside == nullptr;
+        Complain(limit, "a string has no closing quote", truncated_ ? DiagnosticKind::kFileCutOff : DiagnosticKind::kStepSyntax);
+        return truncated_ ? end_ : inside;
       }
       p = close + 1;
     }
@@ -247,6 +255,7 @@ class StepIndexer {
   StepFile file_;
   TypeTable types_;
   size_t complaints_ = 0;
+  bool in_data_ = false, data_ended_ = false;  // the data section has begun, and it has ended
   bool closed_ = false, truncated_ = false;
 };
 

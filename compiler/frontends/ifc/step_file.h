@@ -24,6 +24,8 @@ class StepFile {
   // Indexes `text`, which must outlive the result and be shorter than 4 GiB. None: it is no STEP file at all, and an error says so.
   [[nodiscard]] static std::optional<StepFile> Index(std::string_view text, DiagnosticSink& diagnostics);
 
+  [[nodiscard]] size_t text_size() const { return text_.size(); }
+
   // Instances are numbered in the order of the file.
   [[nodiscard]] uint32_t size() const { return static_cast<uint32_t>(ids_.size()); }
   [[nodiscard]] uint64_t id(uint32_t instance) const { return ids_[instance]; }  // 12 of #12
@@ -44,6 +46,8 @@ class StepFile {
   [[nodiscard]] std::span<const uint32_t> InstancesOf(uint16_t type) const;  // in the order of the file
 
   [[nodiscard]] const std::string& schema_name() const { return schema_name_; }  // "IFC4", first name of FILE_SCHEMA, in capitals
+  // False: the text ends inside its data section, and a FileCutOff error says so; what is whole was indexed.
+  [[nodiscard]] bool is_whole() const { return is_whole_; }
 
  private:
   friend class StepIndexer;
@@ -63,6 +67,7 @@ class StepFile {
   std::vector<uint32_t> dense_;                  // instance of an id, where ids are dense ...
   std::vector<uint32_t> sorted_;                 // ... else instances sorted by id
   std::string schema_name_;
+  bool is_whole_ = true;
   char newline_ = '\n';
   std::vector<uint32_t> line_blocks_;  // newlines before each block of the text
 };

@@ -1,7 +1,11 @@
 #include "compiler/frontends/ifc/step_value.h"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <cstdlib>
 #include <cstring>
+#include <system_error>
 
 #include "compiler/frontends/ifc/step_text.h"
 
@@ -34,6 +38,29 @@ std::string_view NumberText(const char* p, const char* end) {
   const char* last = p;
   while (last != end && IsNumberPart(*last)) ++last;
   return {p, static_cast<size_t>(last - p)};
+}
+
+// The whole of `number`; infinite beyond the range of double. None: it is no number, or goes on behind as 1.#IND does.
+std::optional<double> ParseReal(std::string_view number, const char* end) {
+  const char* last = number.data() + number.size();
+  if (last != end && *last == '#') return std::nullopt;
+  double value = 0;
+  const auto result = std::from_chars(number.data(), last, value);
+  if (result.ptr != last || result.ec == std::errc::invalid_argument) return std::nullopt;
+  // Out of range: too small is zero, too large is infinite; from_chars does not tell which.
+  if (result.ec == std::errc::result_out_of_range) return std::strtod(std::string(number).c_str(), nullptr);
+  return value;
+}
+
+// NAN, -INF, 1.#IND as programs write them.
+bool NamesNoNumber(const char* p, const char* end) {
+  if (p == nullptr) return false;
+  if (p != end && (*p == '-' || *p == '+')) ++p;
+  const auto starts_with = [&](std::string_view lower) {
+    return static_cast<size_t>(end - p) >= lower.size() &&
+           std::equal(lower.begin(), lower.end(), p, [](char a, char b) { return a == (b >= 'A' && b <= 'Z' ? b - 'A' + 'a' : b); });
+  };
+  return starts_with("nan") || starts_with("inf") || starts_with("1.#");
 }
 
 }  // namespace
@@ -112,11 +139,17 @@ std::optional<double> StepValue::Real() const {
     return inner.kind() == Kind::kTyped ? std::nullopt : inner.Real();
   }
   if (k != Kind::kReal && k != Kind::kInteger) return std::nullopt;
-  const std::string_view number = NumberText(begin_, end_);
-  double value = 0;
-  const auto result = std::from_chars(number.data(), number.data() + number.size(), value);
-  if (result.ec != std::errc() || result.ptr != number.data() + number.size()) return std::nullopt;
-  return value;
+  const std::optional<double> value = ParseReal(NumberText(begin_, end_), end_);
+  return value && std::isfinite(*value) ? value : std::nullopt;
+}
+
+bool StepValue::IsNotFinite() const {
+  const StepValue value = NamesNoNumber(begin_, end_) ? *this : Inner();
+  if (NamesNoNumber(value.begin_, value.end_)) return true;
+  const Kind k = value.kind();
+  if (k != Kind::kReal && k != Kind::kInteger) return false;
+  const std::optional<double> number = ParseReal(NumberText(value.begin_, end_), end_);
+  return number && !std::isfinite(*number);
 }
 
 std::optional<int64_t> StepValue::Integer() const {

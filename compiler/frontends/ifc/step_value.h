@@ -28,6 +28,8 @@ class StepValue {
   [[nodiscard]] bool is_null() const { return kind() == Kind::kNull || kind() == Kind::kNone; }
   // A number; a typed value gives what is in it.
   [[nodiscard]] std::optional<double> Real() const;
+  // NAN, INF, 1.#IND and the like as programs write them, and numbers beyond the range of double. Real() gives none for them.
+  [[nodiscard]] bool IsNotFinite() const;
   [[nodiscard]] std::optional<int64_t> Integer() const;
   [[nodiscard]] std::optional<uint64_t> Reference() const;  // 12 for #12
   [[nodiscard]] std::string_view Enumeration() const;       // "METRE" for .METRE.; empty if it is none

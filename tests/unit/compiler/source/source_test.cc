@@ -4,6 +4,8 @@
 #include <zlib.h>
 
 #include <filesystem>
+#include <utility>
+#include <vector>
 
 #include "schema/files.h"
 
@@ -58,7 +60,7 @@ TEST_F(SourceTest, GzipOfSeveralMembersIsReadWhole) {
 }
 
 TEST_F(SourceTest, BombsStopAtTheLimit) {
-  const auto source = LoadSource(Write("bomb.gz", Gzip(std::string(5000000, '0'))), diagnostics_, {.max_bytes = 1000000});
+  const auto source = LoadSource(Write("bomb.gz", Gzip(std::string(5000000, '0'))), diagnostics_, {.max_unpacked_bytes = 1000000});
   EXPECT_FALSE(source);
   ASSERT_EQ(diagnostics_.all().size(), 1u);
   EXPECT_EQ(diagnostics_.all()[0].kind, DiagnosticKind::kFileTooLarge);
@@ -77,6 +79,62 @@ TEST_F(SourceTest, TruncatedAndDamagedGzipAreErrors) {
   EXPECT_FALSE(LoadSource(Write("bad.gz", packed), diagnostics_));
   ASSERT_EQ(diagnostics_.all().size(), 2u);
   for (const Diagnostic& d : diagnostics_.all()) EXPECT_EQ(d.kind, DiagnosticKind::kBadCompression);
+}
+
+// A ZIP archive of (name, text), deflated or stored.
+std::string Zip(const std::vector<std::pair<std::string, std::string>>& entries, bool deflated = true) {
+  std::string out, directory;
+  const auto u16 = [](std::string& to, size_t value) { to += {static_cast<char>(value), static_cast<char>(value >> 8)}; };
+  const auto u32 = [&](std::string& to, size_t value) { u16(to, value & 0xffff), u16(to, value >> 16); };
+  for (const auto& [name, text] : entries) {
+    const std::string gzip = Gzip(text);
+    const std::string packed = deflated ? gzip.substr(10, gzip.size() - 18) : text;
+    const size_t crc = crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), text.size());
+    const size_t local = out.size();
+    // Written in one go: the sizes follow the data, so the local header has none.
+    u32(out, 0x04034b50), u16(out, 20), u16(out, 8), u16(out, deflated ? 8 : 0), u32(out, 0), u32(out, 0), u32(out, 0), u32(out, 0);
+    u16(out, name.size()), u16(out, 0), out += name + packed;
+    u32(directory, 0x02014b50), u16(directory, 20), u16(directory, 20), u16(directory, 8), u16(directory, deflated ? 8 : 0), u32(directory, 0);
+    u32(directory, crc), u32(directory, packed.size()), u32(directory, text.size()), u16(directory, name.size());
+    for (int i = 0; i < 4; ++i) u16(directory, 0);
+    u32(directory, 0), u32(directory, local), directory += name;
+  }
+  const size_t start = out.size();
+  out += directory;
+  u32(out, 0x06054b50), u32(out, 0), u16(out, entries.size()), u16(out, entries.size()), u32(out, directory.size()), u32(out, start), u16(out, 0);
+  return out;
+}
+
+TEST_F(SourceTest, ThePlanInAnArchiveIsRead) {
+  const std::string text = "ISO-10303-21;\nHEADER;\n" + std::string(300000, 'x');
+  const auto plain = LoadSource(Write("a.ifc", text), diagnostics_);
+  for (const bool deflated : {true, false}) {
+    const auto packed = LoadSource(Write("b.ifczip", Zip({{"images/", ""}, {"a.txt", "no plan"}, {"House.IFC", text}}, deflated)), diagnostics_);
+    ASSERT_TRUE(plain && packed);
+    EXPECT_EQ(packed->sha256, plain->sha256);
+    EXPECT_EQ(packed->format, SourceFormat::kIfcStep);
+  }
+  EXPECT_TRUE(diagnostics_.all().empty());
+}
+
+TEST_F(SourceTest, ArchivesThatGiveNoPlanAreErrors) {
+  const std::string text = "ISO-10303-21;" + std::string(1000, 'x');
+  const std::string good = Zip({{"a.ifc", text}});
+  std::string damaged = good, cut = good.substr(0, good.size() - 30), encrypted = good;
+  damaged[40] ^= 0x55;
+  encrypted[encrypted.find("PK\x01\x02") + 8] |= 1;
+  for (const std::string& bytes : {damaged, cut, encrypted, Zip({}), Zip({{"a.ifc", text}, {"b.ifc", text}}), Zip({{"a.txt", text}, {"b.txt", text}})})
+    EXPECT_FALSE(LoadSource(Write("bad.ifczip", bytes), diagnostics_));
+  ASSERT_EQ(diagnostics_.all().size(), 6u);
+  for (const Diagnostic& d : diagnostics_.all()) EXPECT_EQ(d.kind, DiagnosticKind::kBadCompression) << d.message;
+}
+
+TEST_F(SourceTest, ArchivesStopAtTheLimit) {
+  const std::string text(5000000, '0');
+  for (const bool deflated : {true, false})
+    EXPECT_FALSE(LoadSource(Write("bomb.ifczip", Zip({{"a.ifc", text}}, deflated)), diagnostics_, {.max_unpacked_bytes = 1000000}));
+  ASSERT_EQ(diagnostics_.all().size(), 2u);
+  for (const Diagnostic& d : diagnostics_.all()) EXPECT_EQ(d.kind, DiagnosticKind::kFileTooLarge);
 }
 
 TEST_F(SourceTest, MissingFileIsAnError) {

@@ -45,6 +45,24 @@ TEST_F(PlacementTest, CyclesEndWithADiagnostic) {
   EXPECT_EQ(diagnostics_.all()[0].kind, DiagnosticKind::kReferenceCycle);
 }
 
+TEST_F(PlacementTest, ChainsStayWithinTheEarth) {
+  Open(
+      "#10=IFCX(#11);\n#11=IFCLOCALPLACEMENT(#12,#13);\n#12=IFCLOCALPLACEMENT($,#13);\n#13=IFCAXIS2PLACEMENT3D(#14,$,$);\n"
+      "#14=IFCCARTESIANPOINT((9.E7,0.,0.));");
+  PlacementReader reader(*model_);
+  EXPECT_EQ(reader.ObjectPlacement(Reference()).translation().x(), 9e7);
+  ASSERT_EQ(diagnostics_.all().size(), 1u);
+  EXPECT_EQ(diagnostics_.all()[0].kind, DiagnosticKind::kBadAttribute);
+}
+
+TEST_F(PlacementTest, ScalesOutOfAllRangeAreOne) {
+  for (const char* scale : {"0.", "1.E300", "-1.E7"}) {
+    Open(std::string("#10=IFCX(#11);\n#11=IFCCARTESIANTRANSFORMATIONOPERATOR3D($,$,#12,") + scale + ",$);\n#12=IFCCARTESIANPOINT((0.,0.,0.));");
+    EXPECT_TRUE(PlacementReader(*model_).Operator(Reference()).linear().isIdentity(1e-12)) << scale;
+    EXPECT_EQ(diagnostics_.all().back().kind, DiagnosticKind::kBadAttribute);
+  }
+}
+
 TEST_F(PlacementTest, SkewedAndMissingDirectionsAreMadeOrthonormal) {
   Open("#10=IFCX(#11);\n#11=IFCAXIS2PLACEMENT3D(#12,#13,#13);\n#12=IFCCARTESIANPOINT((0.,0.,0.));\n#13=IFCDIRECTION((0.,2.,0.));");
   PlacementReader reader(*model_);

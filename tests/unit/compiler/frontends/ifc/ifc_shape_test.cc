@@ -200,10 +200,36 @@ TEST_F(ShapeReaderTest, CyclesWithTwoChildrenEndSoon) {
   EXPECT_EQ(diagnostics_.all().back().kind, DiagnosticKind::kTooManyTriangles);
 }
 
+// As deep as programs that cut a wall once for each of its openings make them.
+TEST_F(ShapeReaderTest, LongChainsOfCutsAreNoCycle) {
+  std::string data = "#100=IFCBLOCK($,1000.,1.,1.);\n#11=IFCCARTESIANPOINT((1.,0.,0.));\n#12=IFCAXIS2PLACEMENT3D(#13,$,$);\n"
+                     "#13=IFCCARTESIANPOINT((999.,0.,0.));\n#14=IFCBLOCK(#12,1.,1.,1.);\n";
+  for (int i = 101; i <= 600; ++i) {
+    data += "#" + std::to_string(i) + "=IFCBOOLEANCLIPPINGRESULT(.DIFFERENCE.,#" + std::to_string(i - 1) + ",#14);\n";
+  }
+  EXPECT_NEAR(VolumeOf(ReadItem(data, "#600", "Clipping")), 999, 1e-9);
+  EXPECT_TRUE(diagnostics_.all().empty());
+}
+
+TEST_F(ShapeReaderTest, HalfSpacesIntersectToo) {
+  const std::string data =
+      "#20=IFCBLOCK($,4.,2.,1.);\n#21=IFCHALFSPACESOLID(#22,.T.);\n#22=IFCPLANE(#23);\n#23=IFCAXIS2PLACEMENT3D(#24,#25,$);\n"
+      "#24=IFCCARTESIANPOINT((1.,0.,0.));\n#25=IFCDIRECTION((1.,0.,0.));\n#26=IFCDIRECTION((0.,0.,1.));\n#27=IFCDIRECTION((1.,0.,0.));\n"
+      "#28=IFCAXIS2PLACEMENT3D(#24,#26,#27);\n#29=IFCPOLYLINE((#30,#31,#32,#33,#30));\n#30=IFCCARTESIANPOINT((-1.,0.));\n"
+      "#31=IFCCARTESIANPOINT((1.,0.));\n#32=IFCCARTESIANPOINT((1.,1.));\n#33=IFCCARTESIANPOINT((-1.,1.));\n"
+      "#34=IFCPOLYGONALBOUNDEDHALFSPACE(#22,.T.,#28,#29);\n";
+  // The half space is x < 1, the bounded one its part 0 < x, 0 < y < 1.
+  EXPECT_NEAR(VolumeOf(ReadItem(data + "#40=IFCBOOLEANRESULT(.DIFFERENCE.,#20,#21);", "#40", "CSG")), 6, 1e-9);
+  EXPECT_NEAR(VolumeOf(ReadItem(data + "#40=IFCBOOLEANRESULT(.INTERSECTION.,#20,#21);", "#40", "CSG")), 2, 1e-9);
+  EXPECT_NEAR(VolumeOf(ReadItem(data + "#40=IFCBOOLEANRESULT(.DIFFERENCE.,#20,#34);", "#40", "CSG")), 7, 1e-9);
+  EXPECT_NEAR(VolumeOf(ReadItem(data + "#40=IFCBOOLEANRESULT(.INTERSECTION.,#20,#34);", "#40", "CSG")), 1, 1e-9);
+  EXPECT_TRUE(diagnostics_.all().empty());
+}
+
 TEST_F(ShapeReaderTest, FarCoordinatesAndHugeAnglesAreBounded) {
   Open("#10=IFCCARTESIANPOINT((1.E300,0.,0.));\n#11=IFCCARTESIANPOINT((1.E7,0.,0.));\n#12=IFCBLOCK($,1.E300,1.,1.);");
   EXPECT_EQ(placements_->Point(Get(10)), Eigen::Vector3d::Zero());
-  EXPECT_EQ(diagnostics_.all().back().kind, DiagnosticKind::kBadAttribute);
+  EXPECT_EQ(diagnostics_.all().back().kind, DiagnosticKind::kNumberNotFinite);
   EXPECT_GT(placements_->Point(Get(11)).x(), 1000);
   EXPECT_EQ(model_->Length(Get(12), attribute::kBlockX), 0);
   EXPECT_EQ(ArcSegments(1, 1e300, 0.001), ArcSegments(1, 2 * kPi, 0.001));

@@ -88,7 +88,8 @@ TEST_F(StepFileTest, TruncationKeepsWhatIsWhole) {
   const StepFile& file = Index(text);
   EXPECT_NE(file.Find(10), StepFile::kNone);
   EXPECT_EQ(file.Find(11), StepFile::kNone);
-  ASSERT_EQ(Kinds(), std::vector{DiagnosticKind::kStepSyntax});
+  EXPECT_FALSE(file.is_whole());
+  ASSERT_EQ(Kinds(), std::vector{DiagnosticKind::kFileCutOff});
   EXPECT_EQ(diagnostics_.all()[0].location.line, 13u);
 }
 
@@ -97,7 +98,21 @@ TEST_F(StepFileTest, TruncationInsideAString) {
   text.resize(text.find("bbbbb") + 2);
   const StepFile& file = Index(text);
   EXPECT_NE(file.Find(10), StepFile::kNone);
+  EXPECT_EQ(Kinds(), std::vector{DiagnosticKind::kFileCutOff});
+}
+
+TEST_F(StepFileTest, AFileThatEndsBehindItsDataSectionIsWhole) {
+  std::string text = test::IfcText("#10=IFCWALL('a');");
+  text.resize(text.find("END-ISO"));
+  EXPECT_TRUE(Index(text).is_whole());
   EXPECT_EQ(Kinds(), std::vector{DiagnosticKind::kStepSyntax});
+}
+
+TEST_F(StepFileTest, AFileThatEndsBetweenInstancesIsCutOff) {
+  std::string text = test::IfcText("#10=IFCWALL('a');\n#11=IFCWALL('b');");
+  text.resize(text.find("#11"));
+  EXPECT_FALSE(Index(text).is_whole());
+  EXPECT_EQ(Kinds(), std::vector{DiagnosticKind::kFileCutOff});
 }
 
 TEST_F(StepFileTest, MissingSemicolonLosesNoInstance) {

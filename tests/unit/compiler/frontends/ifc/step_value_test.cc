@@ -67,6 +67,18 @@ TEST(StepValue, TypedValuesGiveWhatIsInThem) {
   EXPECT_EQ(a[4].Inner().kind(), Kind::kNone);
 }
 
+TEST(StepValue, WhatIsNoFiniteNumberSaysSo) {
+  const Parsed bad("(NAN,-INF,nan(ind),1.E999,-1.#IND,1.#QNAN,IFCLENGTHMEASURE(NAN),IFCREAL(-1.E400))");
+  ASSERT_EQ(bad.size(), 8u);
+  for (size_t i = 0; i < bad.size(); ++i) {
+    EXPECT_FALSE(bad[i].Real()) << i;
+    EXPECT_TRUE(bad[i].IsNotFinite()) << i;
+  }
+  const Parsed good("(1.,-2,1.E-999,IFCREAL(1.),$,*,'nan',#12,.INF.,(1.),IFCREAL(IFCREAL(NAN)))");
+  for (size_t i = 0; i < good.size(); ++i) EXPECT_FALSE(good[i].IsNotFinite()) << i;
+  EXPECT_EQ(good[2].Real(), 0.0);
+}
+
 TEST(StepValue, StringsAndCommentsHideSeparators) {
   const Parsed a("( 'a''),(;' , /* ,( ' */ #7 /* x */ , ('p','q)') )");
   ASSERT_EQ(a.size(), 3u);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace plumb::compiler {
@@ -148,6 +149,31 @@ double OverlapArea(std::span<const Ring> a, std::span<const Ring> b) {
 }
 
 double RegionArea(std::span<const Ring> rings) { return OverlapArea(rings, rings); }
+
+std::vector<Eigen::Vector2d> CommonCorners(std::span<const Ring> a, std::span<const Ring> b) {
+  std::vector<Eigen::Vector2d> out;
+  const auto add_inside = [&out](std::span<const Ring> corners, std::span<const Ring> region) {
+    for (const Ring& ring : corners) {
+      std::copy_if(ring.begin(), ring.end(), std::back_inserter(out), [&](const auto& p) { return WindingNumber(region, p) != 0; });
+    }
+  };
+  add_inside(a, b);
+  add_inside(b, a);
+  std::vector<Edge> edges;
+  AppendEdges(a, 0, edges);
+  const auto split = static_cast<std::ptrdiff_t>(edges.size());
+  AppendEdges(b, 1, edges);
+  for (auto e = edges.begin(); e != edges.begin() + split; ++e) {
+    for (auto f = edges.begin() + split; f != edges.end(); ++f) {
+      const Eigen::Vector2d u = e->b - e->a, v = f->b - f->a, w = f->a - e->a;
+      const double det = Cross(u, v);
+      if (det == 0) continue;
+      const double s = Cross(w, v) / det, t = Cross(w, u) / det;
+      if (s >= 0 && s <= 1 && t >= 0 && t <= 1) out.push_back(e->a + s * u);
+    }
+  }
+  return out;
+}
 
 Ring Simplified(const Ring& ring, double tolerance_m) {
   Ring out = ring;

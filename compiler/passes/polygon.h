@@ -28,6 +28,9 @@ namespace plumb::compiler {
 [[nodiscard]] double OverlapArea(std::span<const Ring> a, std::span<const Ring> b);
 [[nodiscard]] double RegionArea(std::span<const Ring> rings);
 
+// Corners of what is inside both regions, in no particular order. O(E^2).
+[[nodiscard]] std::vector<Eigen::Vector2d> CommonCorners(std::span<const Ring> a, std::span<const Ring> b);
+
 // Without the vertices that lie within `tolerance_m` of the line through their neighbours, and without spikes. May come back empty.
 [[nodiscard]] Ring Simplified(const Ring& ring, double tolerance_m);
 

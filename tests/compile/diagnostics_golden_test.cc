@@ -47,8 +47,8 @@ Alias AliasOf(const AGraph& g, bool closed) {
   return alias;
 }
 
-// Kinds whose smallest input is too large to be stored; their own tests are in ifc_hostile_test.cc and rooms_test.cc.
-const std::set<std::string> kWithoutInput = {"PL1005", "PL7003"};
+// Kinds whose smallest input is too large to be stored; their own tests are in ifc_hostile_test.cc.
+const std::set<std::string> kWithoutInput = {"PL1005"};
 
 using Maker = std::function<AGraph()>;
 

@@ -15,6 +15,7 @@ using PlaneManifold = ceres::ProductManifold<ceres::SphereManifold<3>, ceres::Eu
 constexpr double kAnchorSigma_m = 1e-4, kAnchorSigma_rad = 1e-4;
 // Far weaker than any observation: they only keep the problem regular where nothing was observed (a corridor, no floor, a line of points).
 constexpr std::array<double, kPlaceSize> kPlaceWeight{0.1, 0.1, 0.1, 1.0};
+constexpr double kHeldHeight_m = 0.005;  // without floor or ceiling, walls a thousandth off plumb would drag the height along by metres
 constexpr std::array<double, kPlaneSize> kPlaneWeight{1.0, 1.0, 1.0, 0.1};
 constexpr double kOdometryLoss = 3.0, kLevelLoss = 2.0;  // in sigmas
 
@@ -56,8 +57,10 @@ struct JointProblem::Impl {
     }
   }
 
-  void AddPlaceAndBias() {
-    problem.AddResidualBlock(Cost<PriorResidual<kPlaceSize>, kPlaceSize, kPlaceSize>({state.place, &kPlaceWeight}), nullptr, state.place.data());
+  void AddPlaceAndBias(const std::vector<Match>& matches) {
+    const bool has_level = std::any_of(matches.begin(), matches.end(), [](const Match& m) { return !m.plan_surface.valid(); });
+    if (!has_level) place_weight[2] = 1 / kHeldHeight_m;
+    problem.AddResidualBlock(Cost<PriorResidual<kPlaceSize>, kPlaceSize, kPlaceSize>({state.place, &place_weight}), nullptr, state.place.data());
     problem.AddResidualBlock(Cost<PriorResidual<1>, 1, 1>({{0.0}, &bias_weight}), nullptr, &state.bias_m);
   }
 
@@ -133,6 +136,7 @@ struct JointProblem::Impl {
   PlaneManifold plane_manifold;
   std::vector<std::array<double, kNumWallParameters>> wall_weights;
   std::array<double, 1> level_weight, bias_weight;
+  std::array<double, kPlaceSize> place_weight = kPlaceWeight;
   ceres::Problem problem;  // last: it points at all of the above
 };
 
@@ -165,7 +169,7 @@ JointProblem::JointProblem(const SGraph& map, const AGraph& plan, const std::vec
                            const JointOptions& options, JointState& state)
     : impl_(std::make_unique<Impl>(map, plan, frames, options, state)) {
   impl_->AddKeyframes();
-  impl_->AddPlaceAndBias();
+  impl_->AddPlaceAndBias(matches);
   impl_->AddWalls(matches);
   impl_->AddLevels(matches);
   impl_->AddFreePlanes(matches);

@@ -88,6 +88,17 @@ TEST(OptimizeJointly, FindsNoDeviationInAHouseAsPlanned) {
   }
 }
 
+// A narrow field of view in a small room sees neither floor nor ceiling, and walls are never quite plumb: the height stays where the matcher
+// had it.
+TEST(OptimizeJointly, HoldsTheHeightWithoutFloorAndCeiling) {
+  const AGraph house = test::MakeHouse();
+  DriveOptions options;
+  options.floors = false;
+  options.drift_rad = 0.005;
+  const Solved s = SolveDrive(house, test::DriveThroughHouse(house, options), 8);
+  EXPECT_NEAR((s.result.T_plan_map.translation() - s.drive.T_plan_map.translation()).z(), 0, 0.03);
+}
+
 TEST(OptimizeJointly, DeviatedWallsDoNotDragThePlace) {
   const AGraph house = test::MakeHouse();
   test::Random random(99);

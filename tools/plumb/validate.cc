@@ -6,6 +6,7 @@
 
 #include "schema/files.h"
 #include "tools/plumb/command.h"
+#include "tools/plumb/compile_limits.h"
 
 namespace plumb::tools {
 namespace {
@@ -21,9 +22,14 @@ struct ValidateFlags {
   compiler::ValidateOptions options;
 };
 
+compiler::Report ValidateWithin(const ValidateFlags& flags) {
+  const CompileLimits limits(flags.path);
+  return compiler::ValidateFile(flags.path, flags.options);
+}
+
 Status RunValidate(const ValidateFlags& flags, Session& session) {
   if (const std::string wrong = flags.options.compile.Check(); !wrong.empty()) return session.Fail({ErrorCode::kBadOption, wrong});
-  const compiler::Report report = compiler::ValidateFile(flags.path, flags.options);
+  const compiler::Report report = ValidateWithin(flags);
   const std::string text = compiler::ReportToString(report, flags.json ? ReportFormat::kJson : kFormats.at(flags.format));
   if (flags.output.empty()) {
     session.console.Print(text);

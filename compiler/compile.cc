@@ -48,35 +48,29 @@ std::optional<PlanIr> ReadPlan(const std::string& path, DiagnosticSink& sink) {
   return ReadIfc(*source, sink);
 }
 
-// The solids are most of the memory and no longer needed: give it back before the file is put together.
+// The solids are most of the memory and no longer needed: give it back before the file is put together. Places in the source stay.
 void ReleaseSolids(PlanIr& plan) {
-  plan.elements = {};
-  plan.openings = {};
-  plan.spaces = {};
+  for (PlanElement& element : plan.elements) element.body = element.uncut = {};
+  for (PlanOpening& opening : plan.openings) opening.body = {};
+  for (PlanSpace& space : plan.spaces) space.body = {};
 #ifdef __GLIBC__
   malloc_trim(0);  // they are small blocks, which free alone keeps
 #endif
 }
 
-// Where in the source things stand, by GUID.
-using Locations = std::map<std::string, SourceLocation, std::less<>>;
-Locations LocationsIn(const PlanIr& plan) {
-  Locations by_guid;
+// What checks of the graph know by GUID only is shown where it stands in the source.
+void AddLocated(const PlanIr& plan, const std::vector<Diagnostic>& found, DiagnosticSink& sink) {
+  std::map<std::string_view, const SourceLocation*> by_guid;
   const auto add = [&by_guid](const auto& items) {
-    for (const auto& item : items) by_guid.emplace(item.guid, item.location);
+    for (const auto& item : items) by_guid.emplace(item.guid, &item.location);
   };
   add(plan.elements);
   add(plan.openings);
   add(plan.spaces);
   add(plan.storeys);
-  return by_guid;
-}
-
-// What checks of the graph know by GUID only is shown where it stands in the source.
-void AddLocated(const Locations& by_guid, const std::vector<Diagnostic>& found, DiagnosticSink& sink) {
   for (const Diagnostic& d : found) {
     const auto known = d.location.guid.empty() ? by_guid.end() : by_guid.find(d.location.guid);
-    sink.Emit(d.kind, known == by_guid.end() ? d.location : known->second, d.message, d.hint);
+    sink.Emit(d.kind, known == by_guid.end() ? d.location : *known->second, d.message, d.hint);
   }
 }
 
@@ -87,11 +81,10 @@ std::optional<AGraph> Run(const std::string& path, const CompileOptions& options
   if (!built) return std::nullopt;
   AGraph graph = std::move(built->graph);
   EmitMesh(*plan, graph);
-  const Locations locations = LocationsIn(*plan);
   ReleaseSolids(*plan);
   MoveToPlanFrame(*plan, graph);
   ForecastAliases({}, graph);
-  AddLocated(locations, ValidateGraph(graph), sink);
+  AddLocated(*plan, ValidateGraph(graph), sink);
   EmitProvenance(*plan, Recorded(options), sink, graph);
   return graph;
 }

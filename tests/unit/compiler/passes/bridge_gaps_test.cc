@@ -11,12 +11,6 @@ namespace {
 
 using test::Rectangle;
 
-Floor FloorOf(const std::vector<Ring>& walls) {
-  Floor floor;
-  for (uint32_t i = 0; i < walls.size(); ++i) floor.footprints.push_back({FootprintKind::kWall, i, i, true, {walls[i]}});
-  return floor;
-}
-
 // Four walls around [0,4] x [0,3]; the west wall stops `gap_m` short of the north wall.
 Floor Box(double gap_m) {
   return FloorOf({Rectangle({-0.2, -0.2}, {4.2, 0}), Rectangle({-0.2, 3}, {4.2, 3.2}), Rectangle({-0.2, 0}, {0, 3 - gap_m}),

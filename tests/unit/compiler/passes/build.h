@@ -20,6 +20,13 @@ inline Built Build(PlanIr plan, PassOptions options = {}) {
   return Build(std::move(plan), sink, options);
 }
 
+// A floor of walls with these outlines.
+inline Floor FloorOf(const std::vector<Ring>& walls) {
+  Floor floor;
+  for (uint32_t i = 0; i < walls.size(); ++i) floor.footprints.push_back({FootprintKind::kWall, i, i, true, {walls[i]}});
+  return floor;
+}
+
 inline size_t CountOf(const DiagnosticSink& sink, DiagnosticKind kind) {
   size_t n = 0;
   for (const Diagnostic& d : sink.all()) n += d.kind == kind;

@@ -4,17 +4,12 @@
 
 #include "compiler/passes/polygon.h"
 #include "tests/support/plan_builder.h"
+#include "tests/unit/compiler/passes/build.h"
 
 namespace plumb::compiler {
 namespace {
 
 using test::Rectangle;
-
-Floor FloorOf(const std::vector<Ring>& walls) {
-  Floor floor;
-  for (uint32_t i = 0; i < walls.size(); ++i) floor.footprints.push_back({FootprintKind::kWall, i, i, true, {walls[i]}});
-  return floor;
-}
 
 std::vector<double> FreeAreas(const Floor& floor) {
   std::vector<double> out;

@@ -7,7 +7,10 @@
 
 #include <algorithm>
 #include <exception>
+#include <map>
 #include <new>
+#include <string_view>
+#include <vector>
 
 #include "compiler/emit/emit.h"
 #include "compiler/frontends/ifc/ifc_frontend.h"
@@ -24,6 +27,8 @@ PassOptions PassOptionsFrom(const CompileOptions& options) {
   out.section_height_m = options.section_height_m;
   out.verify = options.verify_stages;
   out.planar_map.snap_radius_m = options.snap_radius_m;
+  out.bridges.max_gap_m = options.max_gap_m;
+  out.division.divide = options.divide_open_plans;
   out.rooms.min_area_m2 = options.min_room_area_m2;
   return out;
 }
@@ -32,6 +37,8 @@ PassOptions PassOptionsFrom(const CompileOptions& options) {
 std::vector<Option> Recorded(const CompileOptions& options) {
   return {{"section_height_m", fmt::format("{}", options.section_height_m)},
           {"snap_radius_m", fmt::format("{}", options.snap_radius_m)},
+          {"max_gap_m", fmt::format("{}", options.max_gap_m)},
+          {"divide_open_plans", options.divide_open_plans ? "true" : "false"},
           {"min_room_area_m2", fmt::format("{}", options.min_room_area_m2)}};
 }
 
@@ -51,6 +58,28 @@ void ReleaseSolids(PlanIr& plan) {
 #endif
 }
 
+// Where in the source things stand, by GUID.
+using Locations = std::map<std::string, SourceLocation, std::less<>>;
+Locations LocationsIn(const PlanIr& plan) {
+  Locations by_guid;
+  const auto add = [&by_guid](const auto& items) {
+    for (const auto& item : items) by_guid.emplace(item.guid, item.location);
+  };
+  add(plan.elements);
+  add(plan.openings);
+  add(plan.spaces);
+  add(plan.storeys);
+  return by_guid;
+}
+
+// What checks of the graph know by GUID only is shown where it stands in the source.
+void AddLocated(const Locations& by_guid, const std::vector<Diagnostic>& found, DiagnosticSink& sink) {
+  for (const Diagnostic& d : found) {
+    const auto known = d.location.guid.empty() ? by_guid.end() : by_guid.find(d.location.guid);
+    sink.Emit(d.kind, known == by_guid.end() ? d.location : known->second, d.message, d.hint);
+  }
+}
+
 std::optional<AGraph> Run(const std::string& path, const CompileOptions& options, DiagnosticSink& sink) {
   std::optional<PlanIr> plan = ReadPlan(path, sink);
   if (!plan) return std::nullopt;
@@ -58,10 +87,11 @@ std::optional<AGraph> Run(const std::string& path, const CompileOptions& options
   if (!built) return std::nullopt;
   AGraph graph = std::move(built->graph);
   EmitMesh(*plan, graph);
+  const Locations locations = LocationsIn(*plan);
   ReleaseSolids(*plan);
   MoveToPlanFrame(*plan, graph);
   ForecastAliases({}, graph);
-  for (const Diagnostic& d : ValidateGraph(graph)) sink.Emit(d.kind, d.location, d.message, d.hint);
+  AddLocated(locations, ValidateGraph(graph), sink);
   EmitProvenance(*plan, Recorded(options), sink, graph);
   return graph;
 }
@@ -73,6 +103,7 @@ std::string CompileOptions::Check() const {
     return fmt::format("CompileOptions.section_height_m = {}; must be in (0, 10)", section_height_m);
   if (!(snap_radius_m > 0 && snap_radius_m <= 0.05))
     return fmt::format("CompileOptions.snap_radius_m = {}; must be in (0, 0.05]", snap_radius_m);
+  if (!(max_gap_m >= 0 && max_gap_m <= 0.5)) return fmt::format("CompileOptions.max_gap_m = {}; must be in [0, 0.5]", max_gap_m);
   if (!(min_room_area_m2 >= 0)) return fmt::format("CompileOptions.min_room_area_m2 = {}; must not be negative", min_room_area_m2);
   return {};
 }

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <limits>
 
 #include "compiler/passes/alias_text.h"
 #include "compiler/passes/polygon.h"
+#include "schema/agraph_reader.h"
 
 namespace plumb::compiler {
 namespace {
@@ -15,6 +17,7 @@ namespace {
 constexpr double kOnBoundary_m = 0.005;  // rounding and snapping of the planar map
 constexpr double kProbe_m = 0.01;        // step off a surface to see what is before it
 constexpr double kAreaShare = 0.01;      // by which a stated area may differ, and two rooms overlap
+constexpr double kLeastAcross_m = 1;     // of wall surfaces across the others of a storey
 constexpr double kOpeningSlack_m = 0.3;  // of an opening's middle to its wall, beyond the thickness
 
 std::vector<Ring> RingsOf(const Room& room) {
@@ -52,6 +55,10 @@ class Validator {
     if (graph_.rooms.empty()) Emit(DiagnosticKind::kNoRooms, {}, "the plan has no room");
     if (graph_.mesh.triangles.empty()) Emit(DiagnosticKind::kNoTriangles, {}, "the plan has no triangle");
     for (const Diagnostic& d : DescribeAliases(graph_)) sink_.Emit(d.kind, d.location, d.message, d.hint);
+    bool fixed_somewhere = false;
+    for (size_t s = 0; s < graph_.storeys.size(); ++s) fixed_somewhere |= FixesPosition(StoreyId(s));
+    if (!fixed_somewhere)
+      Emit(DiagnosticKind::kNowhereToLocalize, {}, "no storey has wall surfaces in two directions: nothing fixes a robot's position");
     return sink_.all();
   }
 
@@ -62,6 +69,28 @@ class Validator {
     sink_.Emit(kind, where, std::move(message));
   }
   std::string NameOf(size_t room) const { return fmt::format("room {} `{}`", room, graph_.rooms[room].name); }
+
+  // True if there is enough wall across the longest one; false also where the storey has no wall. Curved walls face every way.
+  bool FixesPosition(StoreyId storey) {
+    const Surface* longest = nullptr;
+    for (const Surface& s : graph_.surfaces) {
+      if (s.storey != storey) continue;
+      if (s.arc) return true;
+      if (!longest || s.length_m() > longest->length_m()) longest = &s;
+    }
+    if (!longest) return false;
+    double across_m = 0;
+    for (const Surface& s : graph_.surfaces) {
+      if (s.storey == storey) across_m += s.length_m() * std::abs(Cross(longest->normal.head<2>(), s.normal.head<2>()));
+    }
+    if (across_m >= kLeastAcross_m) return true;
+    const Storey& where = graph_.storeys[storey.index()];
+    Emit(DiagnosticKind::kWallsInOneDirection, where.guid,
+         fmt::format(
+             "the wall surfaces of storey `{}` run in one direction, with {:.2f} m across it; at least {:.2f} m fix a position along them",
+             where.name, across_m, kLeastAcross_m));
+    return false;
+  }
 
   void CheckRooms() {
     std::vector<bool> entered(graph_.rooms.size(), false);
@@ -197,6 +226,72 @@ class Validator {
 
 }  // namespace
 
+namespace {
+
+constexpr std::string_view kEnding = ".agraph";
+
+bool IsAGraph(const std::string& path) {
+  if (path.ends_with(kEnding)) return true;
+  std::ifstream file(path, std::ios::binary);
+  char head[8] = {};
+  return file.read(head, sizeof head) && std::string_view(head + 4, 4) == "PLAG";
+}
+
+DiagnosticKind KindOf(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::kFileTooLarge: return DiagnosticKind::kFileTooLarge;
+    case ErrorCode::kNotAnAGraph: return DiagnosticKind::kNotAnAGraph;
+    case ErrorCode::kAGraphDamaged: return DiagnosticKind::kAGraphDamaged;
+    case ErrorCode::kAGraphTooNew: return DiagnosticKind::kAGraphTooNew;
+    case ErrorCode::kAGraphInconsistent: return DiagnosticKind::kAGraphInconsistent;
+    default: return DiagnosticKind::kFileUnreadable;
+  }
+}
+
+CompileResult ReadGraph(const std::string& path) {
+  CompileResult out;
+  Expected<AGraph> graph = ReadAGraphFile(path);
+  if (!graph) {
+    out.diagnostics.Emit(KindOf(graph.error().code), {}, graph.error().message);
+    return out;
+  }
+  out.graph = std::move(*graph);
+  for (const Diagnostic& d : ValidateGraph(*out.graph)) out.diagnostics.Emit(d.kind, d.location, d.message, d.hint);
+  return out;
+}
+
+std::string Contents(const AGraph& graph) {
+  const auto count = [](size_t n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); };
+  return count(graph.rooms.size(), "room") + ", " + count(graph.surfaces.size(), "wall surface") + ", " +
+         count(graph.storeys.size(), "storey");
+}
+
+}  // namespace
+
 std::vector<Diagnostic> ValidateGraph(const AGraph& graph) { return Validator(graph).Run(); }
+
+Report ReportOf(const std::string& path, const CompileResult& result, bool strict) {
+  Report out{path, result.diagnostics.all(), Outcome::kFine, {}};
+  const size_t errors = result.diagnostics.Count(Severity::kError), warnings = strict ? result.diagnostics.Count(Severity::kWarning) : 0;
+  if (result.has_internal_error()) {
+    out.outcome = Outcome::kInternal;
+    out.answer = "the compiler failed; nothing can be said of the plan";
+  } else if (!result.graph) {
+    out.outcome = Outcome::kBadInput;
+    out.answer = "no robot can localize in this: it cannot be read as a plan";
+  } else if (errors + warnings > 0) {
+    out.outcome = Outcome::kFindings;
+    out.answer = fmt::format("no robot should localize in this before {} finding{} mended ({})", errors + warnings,
+                             errors + warnings == 1 ? " is" : "s are", Contents(*result.graph));
+  } else {
+    const size_t doubts = result.diagnostics.Count(Severity::kWarning);
+    out.answer = fmt::format("a robot can localize in this ({}){}", Contents(*result.graph), doubts == 0 ? "" : ", but see the warnings");
+  }
+  return out;
+}
+
+Report ValidateFile(const std::string& path, const ValidateOptions& options) {
+  return ReportOf(path, IsAGraph(path) ? ReadGraph(path) : Compile(path, options.compile), options.strict);
+}
 
 }  // namespace plumb::compiler

@@ -1,14 +1,31 @@
-// Checks of a whole A-Graph that no single pass and no reader can make: that its rooms, surfaces and openings fit together.
+// Can a robot localize in this, and if not, why: checks of plans and of A-Graphs as a whole.
 #pragma once
 
+#include <string>
 #include <vector>
 
+#include "compiler/compile.h"
 #include "compiler/diagnostics/diagnostic.h"
+#include "compiler/diagnostics/report.h"
 #include "schema/agraph.h"
 
 namespace plumb::compiler {
 
-// Ids must be in range, as in every A-Graph that the reader returns. Kinds 71xx, 72xx, 7001 and 8001. Rooms are compared in pairs per storey.
+// What no single pass and no reader can check: that rooms, surfaces and openings fit together, and that there is something to find oneself
+// by. Ids must be in range, as in every A-Graph that the reader returns. Kinds 71xx, 72xx, 7001 and 8001. Rooms are compared in pairs per storey.
 [[nodiscard]] std::vector<Diagnostic> ValidateGraph(const AGraph& graph);
+
+struct ValidateOptions {
+  bool strict = false;  // warnings are findings, too
+  CompileOptions compile;
+};
+
+// Reads the A-Graph at `path`, or compiles the plan, and writes nothing. Told apart by the identifier in the file; a damaged A-Graph may
+// have lost it, so that the name's ending counts, too. Never throws. Outcome: kFine; kFindings (an error or, if strict, a warning);
+// kBadInput (nothing that could be read or compiled); kInternal.
+[[nodiscard]] Report ValidateFile(const std::string& path, const ValidateOptions& options = {});
+
+// How a check of a plan, or what a compilation came to, is reported.
+[[nodiscard]] Report ReportOf(const std::string& path, const CompileResult& result, bool strict = false);
 
 }  // namespace plumb::compiler

@@ -172,6 +172,7 @@ struct AGraph {
   std::string tool_version, source_path, source_format, source_sha256;
   std::vector<Option> options;
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();
+  std::optional<double> true_north_rad;  // direction of true north in the plan frame, counter-clockwise from +x; none: not known
 
   std::vector<Storey> storeys;
   std::vector<Wall> walls;

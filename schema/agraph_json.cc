@@ -208,6 +208,7 @@ std::string AGraphToJson(const AGraph& g) {
   Json out;
   out["schema"] = std::to_string(kSchemaMajor) + "." + std::to_string(kSchemaMinor);
   out["source"] = {{"path", g.source_path}, {"format", g.source_format}, {"sha256", g.source_sha256}};
+  if (g.true_north_rad) out["true_north_rad"] = Radians(*g.true_north_rad);
   out["storeys"] = Storeys(g);
   out["walls"] = Walls(g);
   out["surfaces"] = Surfaces(g);

@@ -7,6 +7,7 @@
 #include <new>
 
 #include "schema/agraph_generated.h"
+#include "schema/checksum.h"
 #include "schema/files.h"
 
 namespace plumb {
@@ -197,6 +198,7 @@ class Checker {
     if (ring.size() < 3) Fault(what, i, fmt::format("a ring has {} points; it needs 3", ring.size()));
   }
   void CheckWallsAndSurfaces() {
+    if (graph_.true_north_rad) Finite("true north", 0, *graph_.true_north_rad);
     const size_t storeys = graph_.storeys.size();
     for (size_t i = 0; i < graph_.walls.size(); ++i) {
       const Wall& w = graph_.walls[i];
@@ -310,6 +312,14 @@ class Checker {
 
 Error Damaged(const char* how) { return {ErrorCode::kAGraphDamaged, std::string("the A-Graph is damaged: ") + how}; }
 
+// Written since schema 1.1.
+bool ChecksumHolds(const fb::AGraph& in, std::span<const uint8_t> bytes) {
+  const uint8_t* field = flatbuffers::GetRoot<flatbuffers::Table>(bytes.data())->GetAddressOf(fb::AGraph::VT_CHECKSUM);
+  if (field == nullptr) return in.schema_major() == 1 && in.schema_minor() == 0;
+  const auto hole = static_cast<size_t>(field - bytes.data());
+  return hole % sizeof(uint64_t) == 0 && ChecksumAround(bytes, hole) == in.checksum();
+}
+
 Expected<AGraph> Convert(const fb::AGraph& in, size_t file_bytes) {
   Copier copy(file_bytes);
   AGraph out;
@@ -318,6 +328,7 @@ Expected<AGraph> Convert(const fb::AGraph& in, size_t file_bytes) {
   out.source_format = copy.Str(in.source_format());
   out.source_sha256 = copy.Str(in.source_sha256());
   out.origin = Vec(in.origin());
+  if (const auto north = in.true_north_rad()) out.true_north_rad = *north;
   ReadStructure(in, copy, out);
   ReadOpenings(in, copy, out);
   ReadRest(in, copy, out);
@@ -342,6 +353,7 @@ Expected<AGraph> ReadAGraph(std::span<const uint8_t> bytes) {
     return Fail(ErrorCode::kAGraphTooNew, fmt::format("the A-Graph has schema {}.{}; this version reads up to {}.x", in.schema_major(),
                                                       in.schema_minor(), kSchemaMajor));
   }
+  if (!ChecksumHolds(in, bytes)) return tl::unexpected<Error>(Damaged("its checksum does not hold: bytes were changed since it was written"));
   if (in.schema_major() == 0) return tl::unexpected<Error>(Damaged("it has no schema version"));
   try {
     return Convert(in, bytes.size());

@@ -11,7 +11,7 @@
 
 namespace plumb {
 
-// Errors: kNotAnAGraph (no file identifier), kAGraphDamaged (verifier), kAGraphTooNew (a higher major version),
+// Errors: kNotAnAGraph (no file identifier), kAGraphDamaged (verifier, checksum), kAGraphTooNew (a higher major version),
 // kAGraphInconsistent (an id out of range, a number that is not finite, a normal that is no unit vector).
 // A newer minor version loads; what it adds is ignored. Linear in the size of the file.
 [[nodiscard]] Expected<AGraph> ReadAGraph(std::span<const uint8_t> bytes);

@@ -3,6 +3,7 @@
 #include <flatbuffers/flatbuffers.h>
 
 #include "schema/agraph_generated.h"
+#include "schema/checksum.h"
 #include "schema/files.h"
 
 namespace plumb {
@@ -202,10 +203,15 @@ void Pack(const AGraph& g, Builder& b) {
   const auto open_boundaries = PackOpenBoundaries(b, g);
   const auto look_alikes = PackLookAlikes(b, g);
   const fb::Vec3 origin = Pack(g.origin);
+  const auto true_north = g.true_north_rad ? flatbuffers::Optional<double>(*g.true_north_rad) : flatbuffers::nullopt;
+  constexpr uint64_t kNotYet = 1;  // 0 would be left out
   b.Finish(fb::CreateAGraph(b, kSchemaMajor, kSchemaMinor, tool_version, source_path, source_format, source_sha256, options, &origin, storeys,
                             walls, surfaces, rooms, doorways, windows, columns, factors, elements, mesh, aliases, diagnostics,
-                            open_boundaries, look_alikes),
+                            open_boundaries, look_alikes, true_north, kNotYet),
            fb::AGraphIdentifier());
+  uint8_t* field = flatbuffers::GetMutableRoot<flatbuffers::Table>(b.GetBufferPointer())->GetAddressOf(fb::AGraph::VT_CHECKSUM);
+  const auto hole = static_cast<size_t>(field - b.GetBufferPointer());
+  flatbuffers::WriteScalar(field, ChecksumAround({b.GetBufferPointer(), b.GetSize()}, hole));
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
+#include <system_error>
 
 namespace plumb {
 namespace {
@@ -31,8 +33,8 @@ Expected<Container> ReadWhole(const std::string& path, size_t max_bytes) {
   struct stat info {};
   if (::fstat(file.fd, &info) != 0 || S_ISDIR(info.st_mode)) return Fail(ErrorCode::kFileUnreadable, "`" + path + "` is no file");
   if (static_cast<size_t>(info.st_size) > max_bytes) {
-    return Fail(ErrorCode::kFileTooLarge, "`" + path + "` has " + std::to_string(info.st_size) + " bytes; at most " +
-                                              std::to_string(max_bytes) + " are read");
+    return Fail(ErrorCode::kFileTooLarge,
+                "`" + path + "` has " + std::to_string(info.st_size) + " bytes; at most " + std::to_string(max_bytes) + " are read");
   }
   Container bytes;
   bytes.resize(static_cast<size_t>(info.st_size));
@@ -48,11 +50,28 @@ Expected<Container> ReadWhole(const std::string& path, size_t max_bytes) {
   return bytes;
 }
 
-Expected<void> WriteWhole(const std::string& path, const char* data, size_t size) {
-  const std::string temporary = path + ".tmp" + std::to_string(::getpid());
+// A device, a pipe or an open file, as /dev/stdout: it can only be written to, not replaced.
+bool IsSpecial(const std::string& path) {
+  if (path.starts_with("/dev/") || path.starts_with("/proc/")) return true;
+  struct stat info {};
+  return ::stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode);
+}
+
+// The file that a chain of links leads to, so that the links stay.
+std::string Target(const std::string& path) {
+  std::error_code error;
+  if (!std::filesystem::is_symlink(path, error)) return path;
+  const std::filesystem::path target = std::filesystem::weakly_canonical(path, error);
+  return error ? path : target.string();
+}
+
+Expected<void> WriteWhole(const std::string& given_path, const char* data, size_t size) {
+  const bool in_place = IsSpecial(given_path);
+  const std::string path = in_place ? given_path : Target(given_path);
+  const std::string temporary = in_place ? path : path + ".tmp" + std::to_string(::getpid());
   const auto fail = [&](const std::string& what) {
     const std::string reason = Reason();
-    ::unlink(temporary.c_str());
+    if (!in_place) ::unlink(temporary.c_str());
     return Fail(ErrorCode::kFileUnwritable, what + " `" + path + "`: " + reason);
   };
   {
@@ -66,7 +85,7 @@ Expected<void> WriteWhole(const std::string& path, const char* data, size_t size
       done += static_cast<size_t>(n);
     }
   }
-  if (::rename(temporary.c_str(), path.c_str()) != 0) return fail("cannot rename onto");
+  if (!in_place && ::rename(temporary.c_str(), path.c_str()) != 0) return fail("cannot rename onto");
   return {};
 }
 

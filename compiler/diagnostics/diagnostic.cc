@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <iterator>
-#include <nlohmann/json.hpp>
+#include <map>
 #include <utility>
 
 namespace plumb::compiler {
@@ -37,24 +37,15 @@ const KindInfo& InfoOf(DiagnosticKind kind) {
   return *it;
 }
 
-const char* SeverityName(Severity severity) {
-  switch (severity) {
-    case Severity::kNote: return "note";
-    case Severity::kRemark: return "remark";
-    case Severity::kWarning: return "warning";
-    case Severity::kError: return "error";
-  }
-  return "error";
-}
+constexpr DiagnosticKind kAllKinds[] = {
+#define PLUMB_DIAGNOSTIC(code, name, severity, rule) DiagnosticKind::k##name,
+#include "compiler/diagnostics/diagnostic_kinds.def"
+#undef PLUMB_DIAGNOSTIC
+};
 
-// By place in the file, then by code; equal ones keep the order of emission.
-std::vector<const Diagnostic*> Sorted(const std::vector<Diagnostic>& diagnostics) {
-  std::vector<const Diagnostic*> out;
-  for (const Diagnostic& d : diagnostics) out.push_back(&d);
-  std::stable_sort(out.begin(), out.end(), [](const Diagnostic* a, const Diagnostic* b) {
-    return std::tie(a->location.line, a->kind) < std::tie(b->location.line, b->kind);
-  });
-  return out;
+bool EqualIgnoringCase(std::string_view a, std::string_view b) {
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return lower(x) == lower(y); });
 }
 
 }  // namespace
@@ -69,7 +60,6 @@ std::string SourceLocation::ToString() const {
   if (step_id != 0) add(fmt::format("#{}", step_id));
   add(type);
   add(guid);
-  if (line != 0) add(fmt::format("(line {})", line));
   return out;
 }
 
@@ -78,12 +68,32 @@ std::string_view NameOf(DiagnosticKind kind) { return InfoOf(kind).name; }
 std::string_view RuleOf(DiagnosticKind kind) { return InfoOf(kind).rule; }
 Severity SeverityOf(DiagnosticKind kind) { return InfoOf(kind).severity; }
 
+const char* SeverityName(Severity severity) {
+  switch (severity) {
+    case Severity::kNote: return "note";
+    case Severity::kRemark: return "remark";
+    case Severity::kWarning: return "warning";
+    case Severity::kError: return "error";
+  }
+  return "error";
+}
+
+std::span<const DiagnosticKind> AllDiagnosticKinds() { return kAllKinds; }
+
+std::optional<DiagnosticKind> FindDiagnosticKind(std::string_view code_or_name) {
+  for (const DiagnosticKind kind : kAllKinds) {
+    if (EqualIgnoringCase(code_or_name, CodeOf(kind)) || EqualIgnoringCase(code_or_name, NameOf(kind))) return kind;
+  }
+  return std::nullopt;
+}
+
 void DiagnosticSink::Emit(DiagnosticKind kind, SourceLocation location, std::string message, std::string hint) {
   diagnostics_.push_back({kind, SeverityOf(kind), std::move(location), std::move(message), std::move(hint)});
 }
 
 size_t DiagnosticSink::Count(Severity severity) const {
-  return static_cast<size_t>(std::count_if(diagnostics_.begin(), diagnostics_.end(), [&](const Diagnostic& d) { return d.severity == severity; }));
+  return static_cast<size_t>(
+      std::count_if(diagnostics_.begin(), diagnostics_.end(), [&](const Diagnostic& d) { return d.severity == severity; }));
 }
 
 std::vector<DiagnosticCount> DiagnosticSink::Summary() const {
@@ -91,6 +101,15 @@ std::vector<DiagnosticCount> DiagnosticSink::Summary() const {
   for (const Diagnostic& d : diagnostics_) ++counts[d.kind];
   std::vector<DiagnosticCount> out;
   for (const auto& [kind, count] : counts) out.push_back({CodeOf(kind), SeverityOf(kind), count});
+  return out;
+}
+
+std::vector<const Diagnostic*> SortedDiagnostics(const std::vector<Diagnostic>& diagnostics) {
+  std::vector<const Diagnostic*> out;
+  for (const Diagnostic& d : diagnostics) out.push_back(&d);
+  std::stable_sort(out.begin(), out.end(), [](const Diagnostic* a, const Diagnostic* b) {
+    return std::tie(a->location.line, a->location.column, a->kind) < std::tie(b->location.line, b->location.column, b->kind);
+  });
   return out;
 }
 
@@ -104,12 +123,16 @@ std::string DiagnosticsToText(const std::vector<Diagnostic>& diagnostics, const 
   }
   std::string out;
   auto write = std::back_inserter(out);
-  for (const Diagnostic* d : Sorted(diagnostics)) {
+  for (const Diagnostic* d : SortedDiagnostics(diagnostics)) {
     size_t& count = shown[d->kind];
     if (++count > max_per_kind) continue;
+    const SourceLocation& at = d->location;
     fmt::format_to(write, "{}", source_path);
-    if (d->location.line != 0) fmt::format_to(write, ":{}", d->location.line);
+    if (at.line != 0) fmt::format_to(write, ":{}", at.line);
+    if (at.column != 0) fmt::format_to(write, ":{}", at.column);
     fmt::format_to(write, ": {}: {} [{}]\n", SeverityName(d->severity), d->message, CodeOf(d->kind));
+    const bool is_named = (at.step_id == 0 && at.guid.empty()) || d->message.find(at.ToString()) != std::string::npos;
+    if (!is_named) fmt::format_to(write, "    at: {}\n", at.ToString());
     if (!d->hint.empty()) fmt::format_to(write, "    hint: {}\n", d->hint);
     if (count == max_per_kind && total[d->kind] > max_per_kind) {
       fmt::format_to(write, "    and {} more of {} {}\n", total[d->kind] - max_per_kind, CodeOf(d->kind), NameOf(d->kind));
@@ -117,28 +140,6 @@ std::string DiagnosticsToText(const std::vector<Diagnostic>& diagnostics, const 
   }
   if (errors + warnings > 0) fmt::format_to(write, "{} error(s), {} warning(s)\n", errors, warnings);
   return out;
-}
-
-std::string DiagnosticsToJson(const std::vector<Diagnostic>& diagnostics, const std::string& source_path) {
-  nlohmann::ordered_json out;
-  out["source"] = source_path;
-  out["diagnostics"] = nlohmann::ordered_json::array();
-  for (const Diagnostic* d : Sorted(diagnostics)) {
-    nlohmann::ordered_json entry;
-    entry["code"] = CodeOf(d->kind);
-    entry["name"] = NameOf(d->kind);
-    entry["severity"] = SeverityName(d->severity);
-    entry["message"] = d->message;
-    if (!d->hint.empty()) entry["hint"] = d->hint;
-    nlohmann::ordered_json location;
-    if (d->location.line != 0) location["line"] = d->location.line;
-    if (d->location.step_id != 0) location["step_id"] = d->location.step_id;
-    if (!d->location.guid.empty()) location["guid"] = d->location.guid;
-    if (!d->location.type.empty()) location["type"] = d->location.type;
-    entry["location"] = location.is_null() ? nlohmann::ordered_json::object() : location;
-    out["diagnostics"].push_back(std::move(entry));
-  }
-  return out.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace plumb::compiler

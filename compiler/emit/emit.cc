@@ -143,6 +143,7 @@ void EmitProvenance(const PlanIr& plan, const std::vector<Option>& options, cons
   graph.source_format = plan.source_format;
   graph.source_sha256 = plan.source_sha256;
   graph.options = options;
+  graph.true_north_rad = plan.true_north_rad;
   graph.diagnostics = sink.Summary();
 }
 

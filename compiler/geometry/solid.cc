@@ -173,9 +173,11 @@ void FlipSolid(Solid& solid) {
 
 void AppendSolid(const Solid& from, Solid& into) {
   const int base = static_cast<int>(into.vertices.size());
+  const size_t first = into.triangles.size();
   into.vertices.insert(into.vertices.end(), from.vertices.begin(), from.vertices.end());
-  // No reserve: appending many solids to one would copy it each time.
-  for (const Vector3i& t : from.triangles) into.triangles.emplace_back(t.array() + base);
+  // Not reserved to the last triangle: many small solids would each move all that is there.
+  into.triangles.insert(into.triangles.end(), from.triangles.begin(), from.triangles.end());
+  for (size_t i = first; i < into.triangles.size(); ++i) into.triangles[i].array() += base;
 }
 
 void WeldSolid(double tolerance_m, Solid& solid) {

@@ -5,6 +5,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "compiler/ir/plan_ir.h"
@@ -27,12 +28,12 @@ struct Level {
   double top_z_m = 0;      // elevation of the next level; of the highest wall on the last one
 };
 
-enum class FootprintKind : uint8_t { kWall, kColumn };
+enum class FootprintKind : uint8_t { kWall, kColumn, kFilling };  // filling: a door or window that stands in no wall but between walls
 
 // What a solid leaves in the map of a level.
 struct Footprint {
   FootprintKind kind = FootprintKind::kWall;
-  uint32_t wall = kNoIndex;     // in FloorIr::walls; none for columns
+  uint32_t wall = kNoIndex;     // in FloorIr::walls; none for columns and fillings
   uint32_t element = kNoIndex;  // in PlanIr::elements (of a wall: its first)
   bool bounds_rooms = true;     // part of the planar map. False for what a person sees or walks over or under: parapets, hanging walls
   std::vector<Ring> rings;  // closed; outer ones counter-clockwise, holes clockwise; may overlap each other (winding number != 0 is inside)
@@ -42,6 +43,13 @@ struct Footprint {
 struct Divider {
   uint32_t space = kNoIndex;  // in PlanIr::spaces
   std::vector<Ring> rings;    // as Footprint::rings
+  std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> spokes;  // from corners to the nearest wall: they cut up the strip along the walls
+};
+
+// Closes a gap between two outlines that nobody can pass: where it separates rooms, its line is one of both.
+struct Bridge {
+  Eigen::Vector2d from = Eigen::Vector2d::Zero(), to = Eigen::Vector2d::Zero();
+  uint32_t footprint_a = kNoIndex, footprint_b = kNoIndex;  // may be one: parts of a wall
 };
 
 // One edge of a face's boundary, the face on its left.
@@ -49,6 +57,7 @@ struct BoundaryEdge {
   uint32_t from = 0, to = 0;         // vertices
   uint32_t face = kNoIndex;          // the face on the other side
   std::vector<uint32_t> footprints;  // whose outline runs here, ascending; none: two spaces of an open plan meet
+  uint32_t bridge = kNoIndex;        // in Floor::bridges, where nothing else runs here; `footprints` are then the two that it joins
 };
 
 struct FloorFace {
@@ -65,6 +74,7 @@ struct Floor {
   std::vector<double> cut_heights_m;  // where the walls are cut, ascending: the section height, and lower where knee walls bound rooms
   std::vector<Footprint> footprints;
   std::vector<Divider> dividers;
+  std::vector<Bridge> bridges;
   std::vector<Eigen::Vector2d> vertices;
   std::vector<FloorFace> faces;  // the unbounded one first
 };

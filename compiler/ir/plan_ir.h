@@ -60,6 +60,7 @@ struct PlanSpace {
 struct PlanIr {
   std::string source_path, source_format, source_sha256;  // format: "IFC2X3", "IFC4", ...
   Eigen::Vector3d origin = Eigen::Vector3d::Zero();       // added to every coordinate it gives the plan frame
+  std::optional<double> true_north_rad;                   // direction of true north, counter-clockwise from +x, where the source says
   std::vector<PlanStorey> storeys;                        // sorted by elevation
   std::vector<PlanElement> elements;                      // in file order
   std::vector<PlanOpening> openings;

@@ -180,6 +180,7 @@ PlanIr ToPlan(const Json& in) {
   out.source_path = Get<std::string>(in, "source_path");
   out.source_format = Get<std::string>(in, "source_format");
   out.source_sha256 = Get<std::string>(in, "source_sha256");
+  if (in.contains("true_north_rad")) out.true_north_rad = in.at("true_north_rad").get<double>();
   if (in.contains("origin")) out.origin = ToVector<Eigen::Vector3d>(in.at("origin"));
   for (const Json& s : in.at("storeys")) {
     out.storeys.push_back({Get<std::string>(s, "guid"), Get<std::string>(s, "name"), GetLocation(s), s.at("elevation_m").get<double>()});
@@ -201,6 +202,7 @@ std::string PlanIrToJson(const PlanIr& plan) {
   Put(out, "source_format", plan.source_format);
   Put(out, "source_sha256", plan.source_sha256);
   if (!plan.origin.isZero(0)) out["origin"] = FromVector(plan.origin);
+  if (plan.true_north_rad) out["true_north_rad"] = *plan.true_north_rad;
   for (const char* key : {"storeys", "elements", "openings", "spaces"}) out[key] = Json::array();
   for (const PlanStorey& s : plan.storeys) out["storeys"].push_back(FromStorey(s));
   for (const PlanElement& e : plan.elements) out["elements"].push_back(FromElement(e));

@@ -66,6 +66,7 @@ void VerifyBoundary(Faults& faults, const Floor& floor, size_t face, const std::
     faults.Require(edge.to == ring[(k + 1) % ring.size()].from, "face {}: its boundary is not closed", face);
     faults.Require(edge.face < floor.faces.size(), "face {}: neighbour {} of {}", face, edge.face, floor.faces.size());
     faults.Require(!edge.footprints.empty() || !floor.dividers.empty(), "face {}: an edge belongs to no footprint", face);
+    faults.Require(InRangeOrNone(edge.bridge, floor.bridges.size()), "face {}: bridge {} of {}", face, edge.bridge, floor.bridges.size());
     for (uint32_t f : edge.footprints)
       faults.Require(f < floor.footprints.size(), "face {}: footprint {} of {}", face, f, floor.footprints.size());
   }
@@ -78,14 +79,17 @@ void VerifyFloor(Faults& faults, const FloorIr& ir, const PlanIr& plan, const Fl
   for (size_t i = 0; i < floor.footprints.size(); ++i) {
     const Footprint& f = floor.footprints[i];
     faults.Require(f.element < plan.elements.size(), "footprint {}: element {} of {}", i, f.element, plan.elements.size());
-    faults.Require((f.kind == FootprintKind::kColumn) == (f.wall == kNoIndex), "footprint {}: a wall without index or a column with one",
-                   i);
+    faults.Require((f.kind == FootprintKind::kWall) == (f.wall != kNoIndex), "footprint {}: a wall without index or a column with one", i);
     faults.Require(InRangeOrNone(f.wall, ir.walls.size()), "footprint {}: wall {} of {}", i, f.wall, ir.walls.size());
     for (const Ring& ring : f.rings) faults.Require(ring.size() >= 3, "footprint {}: a ring has {} points", i, ring.size());
   }
   for (size_t i = 0; i < floor.dividers.size(); ++i) {
     faults.Require(floor.dividers[i].space < plan.spaces.size(), "divider {}: space {} of {}", i, floor.dividers[i].space,
                    plan.spaces.size());
+  }
+  for (size_t i = 0; i < floor.bridges.size(); ++i) {
+    const Bridge& b = floor.bridges[i];
+    faults.Require(b.footprint_a < floor.footprints.size() && b.footprint_b < floor.footprints.size(), "bridge {}: no such footprint", i);
   }
   faults.Require(!floor.cut_heights_m.empty() && std::is_sorted(floor.cut_heights_m.begin(), floor.cut_heights_m.end()),
                  "the heights of the cuts are not sorted");

@@ -57,7 +57,8 @@ std::string StoreyOptions::Check() const {
 }
 
 void AssignStoreys(PlanIr& plan, const StoreyOptions& options, DiagnosticSink& sink) {
-  if (plan.storeys.empty()) AddMissingStorey(plan, sink);
+  const bool has_storeys = !plan.storeys.empty();
+  if (!has_storeys) AddMissingStorey(plan, sink);
   for (PlanElement& e : plan.elements) {
     const Eigen::AlignedBox3d box = Bounds(e.body.empty() ? e.uncut : e.body);
     if (box.isEmpty()) {
@@ -67,7 +68,7 @@ void AssignStoreys(PlanIr& plan, const StoreyOptions& options, DiagnosticSink& s
     const uint32_t by_geometry = StoreyOfFoot(plan, box.min().z());
     if (e.storey == kNoIndex) {
       e.storey = by_geometry;
-      if (IsWall(e)) {
+      if (has_storeys && IsWall(e)) {
         sink.Emit(DiagnosticKind::kStoreyFromGeometry, e.location,
                   fmt::format("{} is contained in no storey; its foot at {:.2f} m puts it on `{}`", e.location.ToString(),
                               box.min().z() + plan.origin.z(), plan.storeys[by_geometry].name));

@@ -84,7 +84,7 @@ void AddElements(const PlanIr& plan, const FloorIr& floors, const OpeningElement
 std::string PassOptions::Check() const {
   if (!(section_height_m > 0 && section_height_m < 10))
     return fmt::format("PassOptions.section_height_m = {}; must be in (0, 10)", section_height_m);
-  for (const std::string& fault : {storeys.Check(), footprints.Check(), planar_map.Check(), division.Check(), rooms.Check(), naming.Check(),
+  for (const std::string& fault : {storeys.Check(), footprints.Check(), planar_map.Check(), bridges.Check(), division.Check(), rooms.Check(), naming.Check(),
                                    surfaces.Check(), hosting.Check(), doorways.Check()}) {
     if (!fault.empty()) return fault;
   }
@@ -96,7 +96,7 @@ std::optional<FloorIr> BuildFloors(PlanIr& plan, const PassOptions& options, Dia
   AssignStoreys(plan, options.storeys, sink);
   FloorIr floors = CutFootprints(plan, GroupStoreys(plan, options.section_height_m, options.storeys), options.footprints, sink);
   for (Floor& floor : floors.floors) {
-    if (const Expected<void> ok = BuildPlanarMap(floor, options.planar_map); !ok) {
+    if (const Expected<void> ok = BridgeGaps(options.bridges, options.planar_map, floor); !ok) {
       sink.Emit(DiagnosticKind::kInternalError, {}, ok.error().message);
       return std::nullopt;
     }
@@ -105,6 +105,7 @@ std::optional<FloorIr> BuildFloors(PlanIr& plan, const PassOptions& options, Dia
     sink.Emit(DiagnosticKind::kInternalError, {}, ok.error().message);
     return std::nullopt;
   }
+  ReportBridges(plan, floors, sink);
   if (options.verify && !Passes(VerifyFloorIr(floors, plan), "FloorIr", sink)) return std::nullopt;
   return floors;
 }

@@ -6,6 +6,7 @@
 #include "compiler/diagnostics/diagnostic.h"
 #include "compiler/ir/floor_ir.h"
 #include "compiler/passes/assign_storeys.h"
+#include "compiler/passes/bridge_gaps.h"
 #include "compiler/passes/divide_rooms.h"
 #include "compiler/passes/doorways.h"
 #include "compiler/passes/host_openings.h"
@@ -23,6 +24,7 @@ struct PassOptions {
   StoreyOptions storeys;
   FootprintOptions footprints;
   PlanarMapOptions planar_map;
+  BridgeOptions bridges;
   DivideOptions division;
   RoomOptions rooms;
   NamingOptions naming;

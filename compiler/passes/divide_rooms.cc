@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
 
 #include "compiler/passes/polygon.h"
 #include "compiler/passes/section.h"
@@ -47,6 +50,46 @@ std::vector<Outline> PartsOf(const std::vector<Ring>& face, const std::vector<Ou
   return out;
 }
 
+// From each corner to the nearest place on the face's walls. Spaces are drawn to the plaster or with a margin: without these lines the strip
+// around several spaces is one piece.
+std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> SpokesOf(const std::vector<Ring>& outline, const std::vector<Ring>& face,
+                                                                  double max_m) {
+  std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> out;
+  for (const Ring& ring : outline) {
+    for (const auto& corner : ring) {
+      double best_m = max_m;
+      std::optional<Eigen::Vector2d> best;
+      for (const Ring& wall : face) {
+        for (size_t i = 0; i < wall.size(); ++i) {
+          const Eigen::Vector2d q = NearestOnSegment(corner, wall[i], wall[(i + 1) % wall.size()]);
+          if ((q - corner).norm() >= best_m) continue;
+          best_m = (q - corner).norm();
+          best = q;
+        }
+      }
+      if (best && WindingNumber(face, corner) != 0) out.emplace_back(corner, *best);
+    }
+  }
+  return out;
+}
+
+// Spaces that no wall bounds anywhere: zones within an open plan, as around a bar, and no rooms.
+std::set<uint32_t> Islands(const Floor& floor) {
+  std::map<uint32_t, bool> at_wall;  // by space
+  const auto runs_along_walls = [](const std::vector<BoundaryEdge>& ring) {
+    return std::any_of(ring.begin(), ring.end(), [](const BoundaryEdge& e) { return !e.footprints.empty(); });
+  };
+  for (const FloorFace& face : floor.faces) {
+    if (face.space == kNoIndex) continue;
+    at_wall[face.space] |= runs_along_walls(face.outer) || std::any_of(face.holes.begin(), face.holes.end(), runs_along_walls);
+  }
+  std::set<uint32_t> out;
+  for (const auto& [space, bounded] : at_wall) {
+    if (!bounded) out.insert(space);
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string DivideOptions::Check() const {
@@ -82,6 +125,7 @@ size_t FloorOfStorey(const FloorIr& floors, uint32_t storey) {
 
 Expected<void> DivideRooms(const PlanIr& plan, const DivideOptions& options, const PlanarMapOptions& map_options, FloorIr& floors,
                            DiagnosticSink& sink) {
+  if (!options.divide) return {};
   std::vector<std::vector<Outline>> outlines(floors.floors.size());
   for (uint32_t s = 0; s < plan.spaces.size(); ++s) {
     const size_t f = FloorOfStorey(floors, plan.spaces[s].storey);
@@ -96,15 +140,22 @@ Expected<void> DivideRooms(const PlanIr& plan, const DivideOptions& options, con
       std::vector<Outline> parts = PartsOf(FaceRings(floor, face), outlines[f], options);
       if (parts.size() < 2) continue;
       for (Outline& part : parts) {
-        const PlanSpace& space = plan.spaces[part.space];
-        sink.Emit(DiagnosticKind::kSpaceWithinRoom, space.location,
-                  fmt::format("no walls divide space `{}` ({:.2f} m2) from the rest of an open plan of {:.2f} m2; its own outline does",
-                              space.name, part.area_m2, face.area_m2));
-        floor.dividers.push_back({part.space, std::move(part.rings)});
+        auto spokes = SpokesOf(part.rings, FaceRings(floor, face), map_options.max_strip_width_m);
+        floor.dividers.push_back({part.space, std::move(part.rings), std::move(spokes)});
       }
     }
     if (floor.dividers.empty()) continue;
     if (Expected<void> ok = BuildPlanarMap(floor, map_options); !ok) return ok;
+    if (const std::set<uint32_t> islands = Islands(floor); !islands.empty()) {
+      std::erase_if(floor.dividers, [&](const Divider& d) { return islands.contains(d.space); });
+      if (Expected<void> ok = BuildPlanarMap(floor, map_options); !ok) return ok;
+    }
+    for (const Divider& d : floor.dividers) {
+      const PlanSpace& space = plan.spaces[d.space];
+      sink.Emit(DiagnosticKind::kSpaceWithinRoom, space.location,
+                fmt::format("no walls divide space `{}` ({:.2f} m2) from the rest of an open plan; its own outline does", space.name,
+                            RegionArea(d.rings)));
+    }
   }
   return {};
 }

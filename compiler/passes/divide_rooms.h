@@ -9,6 +9,7 @@
 namespace plumb::compiler {
 
 struct DivideOptions {
+  bool divide = true;              // false: an open plan stays the one room that its walls make it, whatever spaces the source names in it
   double min_inside_share = 0.9;   // of a space's area beside walls that lies within the open plan, for the space to divide it
   double max_overlap_share = 0.1;  // of the smaller of two spaces; a space that overlaps others by more is a zone of several
   double min_area_m2 = 1.0;        // smaller spaces divide nothing
@@ -21,7 +22,8 @@ struct DivideOptions {
 // The floor of a storey.
 [[nodiscard]] size_t FloorOfStorey(const FloorIr& floors, uint32_t storey);
 
-// Where two or more spaces that do not overlap lie within one free face: sets Floor::dividers and builds the map anew. Errors: kInternal.
+// Where two or more spaces that do not overlap lie within one free face: sets Floor::dividers and builds the map anew. A space that no wall
+// bounds anywhere divides nothing. Errors: kInternal.
 [[nodiscard]] Expected<void> DivideRooms(const PlanIr& plan, const DivideOptions& options, const PlanarMapOptions& map_options,
                                          FloorIr& floors, DiagnosticSink& sink);
 

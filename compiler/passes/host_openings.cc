@@ -45,6 +45,7 @@ class Host {
 
   std::vector<HostedOpening> Run() {
     CollectCandidates();
+    for (Candidate& c : candidates_) KeepToWall(c);
     PairLooseFillings();
     std::vector<HostedOpening> out;
     for (const Candidate& c : candidates_) {
@@ -106,6 +107,24 @@ class Host {
       return;
     }
     candidates_.push_back(std::move(c));
+  }
+
+  // Voids may reach far beyond their wall, in curved walls as wedges to the arc's centre: the middle of such a one is where both are.
+  void KeepToWall(Candidate& c) const {
+    if (!c.has_void || c.wall == kNoIndex) return;
+    const size_t floor = LevelAt(levels_, c.box.min().z(), options_.storey_slack_m);
+    const Footprint* footprint = FootprintOf(c.wall, floor);
+    if (footprint == nullptr || Meets(c.box.center().head<2>(), c.wall, floor)) return;
+    const Section section = CutSolid(plan_.openings[c.opening].body, c.box.center().z());
+    const std::vector<Eigen::Vector2d> common = CommonCorners(section.rings, footprint->rings);
+    if (common.empty()) return;
+    const double z_min_m = c.box.min().z(), z_max_m = c.box.max().z();
+    c.points.clear();
+    c.box.setEmpty();
+    for (const auto& p : common) {
+      for (double z : {z_min_m, z_max_m}) c.points.emplace_back(p.x(), p.y(), z);
+    }
+    for (const auto& p : c.points) c.box.extend(p);
   }
 
   const SourceLocation& LocationOf(const Candidate& c) const {

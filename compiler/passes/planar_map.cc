@@ -48,6 +48,16 @@ SnapGraph OutlinesOf(const Floor& floor) {
     if (floor.footprints[f].bounds_rooms) append(floor.footprints[f].rings, f);
   }
   for (size_t d = 0; d < floor.dividers.size(); ++d) append(floor.dividers[d].rings, floor.footprints.size() + d);
+  const auto append_line = [&graph](const Eigen::Vector2d& a, const Eigen::Vector2d& b, size_t outline) {
+    const auto from = static_cast<uint32_t>(graph.vertices.size());
+    graph.vertices.insert(graph.vertices.end(), {a, b});
+    graph.segments.push_back({from, from + 1, static_cast<uint32_t>(outline)});
+  };
+  const size_t first_bridge = floor.footprints.size() + floor.dividers.size();
+  for (size_t b = 0; b < floor.bridges.size(); ++b) append_line(floor.bridges[b].from, floor.bridges[b].to, first_bridge + b);
+  for (const Divider& d : floor.dividers) {
+    for (const auto& [from, to] : d.spokes) append_line(from, to, first_bridge + floor.bridges.size());
+  }
   return graph;
 }
 
@@ -97,6 +107,7 @@ class MapBuilder {
     const bool edge_forward = edge->direction() == CGAL::ARR_LEFT_TO_RIGHT;
     for (const uint32_t i : edge->curve().data()) {
       const SnapSegment& s = graph_.segments[i];
+      if (s.footprint >= FirstBridge()) continue;
       const bool forward = LexicographicallyLess(graph_.vertices[s.from], graph_.vertices[s.to]);
       out[s.footprint] += forward == edge_forward ? 1 : -1;
     }
@@ -133,12 +144,15 @@ class MapBuilder {
     }
   }
 
-  bool IsDivider(uint32_t outline) const { return outline >= floor_.footprints.size(); }
+  // Outlines are numbered: footprints, dividers, bridges, and one number for all spokes.
+  uint32_t FirstBridge() const { return static_cast<uint32_t>(floor_.footprints.size() + floor_.dividers.size()); }
+  bool IsBridge(uint32_t outline) const { return outline >= FirstBridge() && outline < FirstBridge() + floor_.bridges.size(); }
+  bool IsDivider(uint32_t outline) const { return outline >= floor_.footprints.size() && !IsBridge(outline); }  // or a spoke of one
   bool IsFree(Arrangement::Face_const_handle f) const {
     const Windings& windings = f->data().windings;
     return !f->is_unbounded() && (windings.empty() || IsDivider(windings.begin()->first));
   }
-  // No wall's outline runs here.
+  // No wall's outline and no bridge runs here.
   bool IsVirtual(Halfedge edge) const {
     return std::all_of(edge->curve().data().begin(), edge->curve().data().end(),
                        [this](uint32_t i) { return IsDivider(graph_.segments[i].footprint); });
@@ -251,8 +265,14 @@ class MapBuilder {
       b.to = edge->target()->data();
       b.face = edge->twin()->face()->data().index;
       for (const uint32_t i : edge->curve().data()) {
-        if (!IsDivider(graph_.segments[i].footprint)) b.footprints.push_back(graph_.segments[i].footprint);
+        const uint32_t outline = graph_.segments[i].footprint;
+        if (IsBridge(outline))
+          b.bridge = std::min(b.bridge, outline - FirstBridge());
+        else if (!IsDivider(outline))
+          b.footprints.push_back(outline);
       }
+      if (!b.footprints.empty()) b.bridge = kNoIndex;
+      if (b.bridge != kNoIndex) b.footprints = {floor_.bridges[b.bridge].footprint_a, floor_.bridges[b.bridge].footprint_b};
       std::sort(b.footprints.begin(), b.footprints.end());
       b.footprints.erase(std::unique(b.footprints.begin(), b.footprints.end()), b.footprints.end());
       out.push_back(std::move(b));

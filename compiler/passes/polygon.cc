@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 namespace plumb::compiler {
@@ -18,13 +19,24 @@ void AppendEdges(std::span<const Ring> rings, int region, std::vector<Edge>& out
   }
 }
 
-// Heights at which the order of the edges along x may change: ends and crossings.
+double Low(const Edge& e) { return std::min(e.a.y(), e.b.y()); }
+double High(const Edge& e) { return std::max(e.a.y(), e.b.y()); }
+
+bool BesideEachOther(const Edge& e, const Edge& f) {
+  return std::max(e.a.x(), e.b.x()) < std::min(f.a.x(), f.b.x()) || std::max(f.a.x(), f.b.x()) < std::min(e.a.x(), e.b.x());
+}
+
+constexpr size_t kMaxHeights = 1 << 14;  // beyond: hostile; evenly spread rows stand in
+
+// Heights at which the order of the edges along x may change: ends and crossings. `edges` by their low ends.
 std::vector<double> EventHeights(const std::vector<Edge>& edges) {
   std::vector<double> out;
   for (const Edge& e : edges) out.push_back(e.a.y());
-  for (size_t i = 0; i < edges.size(); ++i) {
+  size_t i = 0;
+  for (; i < edges.size() && out.size() < kMaxHeights; ++i) {
     const Eigen::Vector2d u = edges[i].b - edges[i].a;
-    for (size_t j = i + 1; j < edges.size(); ++j) {
+    for (size_t j = i + 1; j < edges.size() && Low(edges[j]) <= High(edges[i]); ++j) {
+      if (BesideEachOther(edges[i], edges[j])) continue;
       const Eigen::Vector2d v = edges[j].b - edges[j].a, w = edges[j].a - edges[i].a;
       const double det = Cross(u, v);
       if (det == 0) continue;
@@ -34,6 +46,10 @@ std::vector<double> EventHeights(const std::vector<Edge>& edges) {
   }
   std::sort(out.begin(), out.end());
   out.erase(std::unique(out.begin(), out.end()), out.end());
+  if (i == edges.size()) return out;
+  const double low = out.front(), step = (out.back() - low) / static_cast<double>(kMaxHeights - 1);
+  out.resize(kMaxHeights);
+  for (size_t k = 0; k < kMaxHeights; ++k) out[k] = low + step * static_cast<double>(k);
   return out;
 }
 
@@ -115,16 +131,49 @@ double OverlapArea(std::span<const Ring> a, std::span<const Ring> b) {
   std::vector<Edge> edges;
   AppendEdges(a, 0, edges);
   AppendEdges(b, 1, edges);
+  std::stable_sort(edges.begin(), edges.end(), [](const Edge& l, const Edge& r) { return Low(l) < Low(r); });
   const std::vector<double> heights = EventHeights(edges);
   double area = 0;
+  std::vector<Edge> active;  // that reach into the current row
+  size_t next = 0;
   // Between two events every part is a trapezoid: its mean width is the one at half height.
   for (size_t i = 1; i < heights.size(); ++i) {
-    area += WidthAt(edges, 0.5 * (heights[i - 1] + heights[i])) * (heights[i] - heights[i - 1]);
+    const double y = 0.5 * (heights[i - 1] + heights[i]);
+    std::erase_if(active, [&](const Edge& e) { return High(e) < y; });
+    for (; next < edges.size() && Low(edges[next]) <= y; ++next) {
+      if (High(edges[next]) >= y) active.push_back(edges[next]);
+    }
+    area += WidthAt(active, y) * (heights[i] - heights[i - 1]);
   }
   return area;
 }
 
 double RegionArea(std::span<const Ring> rings) { return OverlapArea(rings, rings); }
+
+std::vector<Eigen::Vector2d> CommonCorners(std::span<const Ring> a, std::span<const Ring> b) {
+  std::vector<Eigen::Vector2d> out;
+  const auto add_inside = [&out](std::span<const Ring> corners, std::span<const Ring> region) {
+    for (const Ring& ring : corners) {
+      std::copy_if(ring.begin(), ring.end(), std::back_inserter(out), [&](const auto& p) { return WindingNumber(region, p) != 0; });
+    }
+  };
+  add_inside(a, b);
+  add_inside(b, a);
+  std::vector<Edge> edges;
+  AppendEdges(a, 0, edges);
+  const auto split = static_cast<std::ptrdiff_t>(edges.size());
+  AppendEdges(b, 1, edges);
+  for (auto e = edges.begin(); e != edges.begin() + split; ++e) {
+    for (auto f = edges.begin() + split; f != edges.end(); ++f) {
+      const Eigen::Vector2d u = e->b - e->a, v = f->b - f->a, w = f->a - e->a;
+      const double det = Cross(u, v);
+      if (det == 0) continue;
+      const double s = Cross(w, v) / det, t = Cross(w, u) / det;
+      if (s >= 0 && s <= 1 && t >= 0 && t <= 1) out.push_back(e->a + s * u);
+    }
+  }
+  return out;
+}
 
 Ring Simplified(const Ring& ring, double tolerance_m) {
   Ring out = ring;
@@ -147,11 +196,14 @@ Ring Simplified(const Ring& ring, double tolerance_m) {
   return out;
 }
 
-double DistanceToSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+Eigen::Vector2d NearestOnSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   const Eigen::Vector2d along = b - a;
   const double length2 = along.squaredNorm();
-  const double t = length2 > 0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0;
-  return (p - a - t * along).norm();
+  return a + (length2 > 0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0) * along;
+}
+
+double DistanceToSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return (p - NearestOnSegment(p, a, b)).norm();
 }
 
 double DistanceToRings(const Eigen::Vector2d& p, std::span<const Ring> rings) {

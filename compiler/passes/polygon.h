@@ -23,13 +23,18 @@ namespace plumb::compiler {
 // Times that the rings go counter-clockwise around `p`; != 0 is inside. Points on an edge may count as either side.
 [[nodiscard]] int WindingNumber(std::span<const Ring> rings, const Eigen::Vector2d& p);
 
-// Area that is inside both regions. O(E^2 + (E + crossings) * E) for E edges together.
+// Area that is inside both regions. For E edges together, A of them at one height: O((E + crossings) * A), exact up to 16,384 ends and
+// crossings; for more, which no building has, from as many rows.
 [[nodiscard]] double OverlapArea(std::span<const Ring> a, std::span<const Ring> b);
 [[nodiscard]] double RegionArea(std::span<const Ring> rings);
+
+// Corners of what is inside both regions, in no particular order. O(E^2).
+[[nodiscard]] std::vector<Eigen::Vector2d> CommonCorners(std::span<const Ring> a, std::span<const Ring> b);
 
 // Without the vertices that lie within `tolerance_m` of the line through their neighbours, and without spikes. May come back empty.
 [[nodiscard]] Ring Simplified(const Ring& ring, double tolerance_m);
 
+[[nodiscard]] Eigen::Vector2d NearestOnSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b);
 [[nodiscard]] double DistanceToSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b);
 [[nodiscard]] double DistanceToRings(const Eigen::Vector2d& p, std::span<const Ring> rings);
 [[nodiscard]] Eigen::AlignedBox2d BoundingBox(std::span<const Ring> rings);

@@ -15,6 +15,7 @@ namespace {
 
 constexpr double kProbeClearance_m = 0.05;  // probes keep off walls: skirtings, wall edges of slabs
 constexpr double kFloorSearch_m = 1.0;      // a floor further below its level than this belongs to another one (a void)
+constexpr double kDoorReach_m = 0.6;      // from the middle of a door to the room behind its wall
 constexpr double kHeadroom_m = 0.3;         // ceilings are looked for from here above the floor
 
 double Median(std::vector<double> values) {
@@ -70,47 +71,102 @@ class RoomFinder {
         graph_(graph),
         sink_(sink),
         below_(plan, {ElementKind::kSlab, ElementKind::kRoof, ElementKind::kCovering, ElementKind::kGround}),
+        standing_(plan, {ElementKind::kSlab, ElementKind::kRoof, ElementKind::kGround, ElementKind::kStair}),
         above_(plan, {ElementKind::kSlab, ElementKind::kRoof, ElementKind::kCovering}) {}
 
   RoomsByFace Run() {
     RoomsByFace out;
     for (const Floor& floor : floors_.floors) {
       out.emplace_back(floor.faces.size());
-      for (size_t f = 1; f < floor.faces.size(); ++f) out.back()[f] = TryFace(floor, floor.faces[f]);
+      std::vector<Candidate> candidates;
+      for (uint32_t f = 1; f < floor.faces.size(); ++f) {
+        if (std::optional<Candidate> c = Consider(floor, f)) candidates.push_back(std::move(*c));
+      }
+      // A plan may draw no slabs at all: then rooms do without.
+      const bool has_slabs = std::any_of(candidates.begin(), candidates.end(), [](const Candidate& c) { return c.floor_share >= 0.5; });
+      for (Candidate& c : candidates) {
+        if (has_slabs && IsVoid(floor.level, c))
+          ReportVoid(floor.level, c);
+        else
+          out.back()[c.face] = AddRoom(floor.level, c);
+      }
     }
     return out;
   }
 
  private:
-  RoomId TryFace(const Floor& floor, const FloorFace& face) {
-    if (!face.cover.empty() || face.area_m2 < options_.min_area_m2) return {};
+  // A face that is large enough for a room.
+  struct Candidate {
+    uint32_t face = kNoIndex;
     std::vector<Ring> rings;
+    double yaw_rad = 0;
+    std::vector<Eigen::Vector2d> probes;
+    double floor_share = 0, deep_share = 0;  // of the probes: a floor of this level below, one of a level further down
+  };
+
+  std::optional<Candidate> Consider(const Floor& floor, uint32_t f) const {
+    const FloorFace& face = floor.faces[f];
+    if (!face.cover.empty() || face.area_m2 < options_.min_area_m2) return std::nullopt;
+    Candidate out;
+    out.face = f;
     for (const Ring& ring : FaceRings(floor, face)) {
       Ring simple = Simplified(ring, options_.collinear_m);
       if (simple.size() >= 3)
-        rings.push_back(std::move(simple));
-      else if (rings.empty())
-        return {};
+        out.rings.push_back(std::move(simple));
+      else if (out.rings.empty())
+        return std::nullopt;
     }
-    if (2 * face.area_m2 / Perimeter(rings) < options_.min_width_m) return {};
+    if (2 * face.area_m2 / Perimeter(out.rings) < options_.min_width_m) return std::nullopt;
+    out.yaw_rad = YawOf(out.rings[0]);
+    out.probes = ProbePoints(out.rings, out.yaw_rad);
+    for (const auto& p : out.probes) {
+      const std::optional<double> z = standing_.Below(p, floor.level.section_z_m);
+      if (!z) continue;
+      (IsOfLevel(floor.level, *z) ? out.floor_share : out.deep_share) += 1.0 / static_cast<double>(out.probes.size());
+    }
+    return out;
+  }
+
+  static bool IsOfLevel(const Level& level, double floor_z_m) { return floor_z_m >= level.base_z_m - kFloorSearch_m; }
+
+  // Nothing to stand on but the floor of a room further down, and no door leads here: the upper part of that room.
+  bool IsVoid(const Level& level, const Candidate& c) const {
+    if (c.floor_share >= options_.min_floor_share || c.deep_share < 0.5) return false;
+    return std::none_of(plan_.elements.begin(), plan_.elements.end(), [&](const PlanElement& e) {
+      if (e.kind != ElementKind::kDoor) return false;
+      const Eigen::AlignedBox3d box = Bounds(e.body);
+      if (box.isEmpty() || !IsOfLevel(level, box.min().z()) || box.min().z() >= level.section_z_m) return false;
+      const Eigen::Vector2d at = box.center().head<2>();
+      return WindingNumber(c.rings, at) != 0 || DistanceToRings(at, c.rings) <= kDoorReach_m;
+    });
+  }
+
+  void ReportVoid(const Level& level, const Candidate& c) {
+    const Eigen::Vector2d at = Centroid(c.rings);
+    sink_.Emit(DiagnosticKind::kVoidOverRoom, {},
+               fmt::format("the space around ({:.2f}, {:.2f}) on `{}` has no floor and no door; it is the upper part of what is below it",
+                           at.x() + plan_.origin.x(), at.y() + plan_.origin.y(), graph_.storeys[level.first_storey].name));
+  }
+
+  RoomId AddRoom(const Level& level, const Candidate& c) {
     Room room;
-    room.polygon = rings[0];
-    room.holes.assign(rings.begin() + 1, rings.end());
-    for (const Ring& ring : rings) room.area_m2 += SignedArea(ring);
-    room.yaw_rad = YawOf(room.polygon);
-    if (!SetHeights(floor.level, rings, room)) return {};
-    room.center << Centroid(rings), room.floor_z_m;
+    room.polygon = c.rings[0];
+    room.holes.assign(c.rings.begin() + 1, c.rings.end());
+    for (const Ring& ring : c.rings) room.area_m2 += SignedArea(ring);
+    room.yaw_rad = c.yaw_rad;
+    if (!SetHeights(level, c, room)) return {};
+    room.center << Centroid(c.rings), room.floor_z_m;
     graph_.rooms.push_back(std::move(room));
     return RoomId(graph_.rooms.size() - 1);
   }
 
   // False if a person cannot stand in it.
-  bool SetHeights(const Level& level, const std::vector<Ring>& rings, Room& room) {
-    const std::vector<Eigen::Vector2d> probes = ProbePoints(rings, room.yaw_rad);
+  bool SetHeights(const Level& level, const Candidate& c, Room& room) {
+    const std::vector<Eigen::Vector2d>& probes = c.probes;
     std::vector<double> floor_hits, ceiling_hits;
     for (const auto& p : probes) {
       const std::optional<double> z = below_.Below(p, level.section_z_m);
-      if (z && *z >= level.base_z_m - kFloorSearch_m) floor_hits.push_back(*z);
+      if (z && IsOfLevel(level, *z)) floor_hits.push_back(*z);
     }
     const bool has_floor = 2 * floor_hits.size() >= probes.size();
     room.floor_z_m = has_floor ? Median(floor_hits) : graph_.storeys[level.first_storey].elevation_m;
@@ -125,7 +181,7 @@ class RoomFinder {
     if (clear >= options_.min_clear_height_m) return true;
     sink_.Emit(DiagnosticKind::kRoomTooLow, {},
                fmt::format("the space of {:.1f} m2 around ({:.2f}, {:.2f}) on `{}` is {:.2f} m high; rooms have at least {:.2f} m",
-                           room.area_m2, Centroid(rings).x() + plan_.origin.x(), Centroid(rings).y() + plan_.origin.y(),
+                           room.area_m2, Centroid(c.rings).x() + plan_.origin.x(), Centroid(c.rings).y() + plan_.origin.y(),
                            graph_.storeys[room.storey.index()].name, clear, options_.min_clear_height_m));
     return false;
   }
@@ -145,7 +201,7 @@ class RoomFinder {
   const RoomOptions& options_;
   AGraph& graph_;
   DiagnosticSink& sink_;
-  VerticalProbe below_, above_;
+  VerticalProbe below_, standing_, above_;
 };
 
 }  // namespace
@@ -154,6 +210,8 @@ std::string RoomOptions::Check() const {
   if (!(min_area_m2 >= 0)) return fmt::format("RoomOptions.min_area_m2 = {}; must not be negative", min_area_m2);
   if (!(min_width_m >= 0)) return fmt::format("RoomOptions.min_width_m = {}; must not be negative", min_width_m);
   if (!(min_clear_height_m >= 0)) return fmt::format("RoomOptions.min_clear_height_m = {}; must not be negative", min_clear_height_m);
+  if (!(min_floor_share >= 0 && min_floor_share <= 0.5))
+    return fmt::format("RoomOptions.min_floor_share = {}; must be in [0, 0.5]", min_floor_share);
   if (!(collinear_m > 0)) return fmt::format("RoomOptions.collinear_m = {}; must be positive", collinear_m);
   return {};
 }

@@ -15,6 +15,7 @@ namespace plumb::compiler {
 namespace {
 
 constexpr double kSameHeight_m = 0.01;
+constexpr double kHoldingStep_m = 0.02;  // thinner than any wall
 constexpr double kRail_m = 0.02;  // into the lowest and highest rail of a curtain wall
 
 const Solid& SectionSolid(const PlanElement& e) { return e.uncut.empty() ? e.body : e.uncut; }
@@ -44,7 +45,7 @@ class FootprintCutter {
         covers_(plan, {ElementKind::kRoof, ElementKind::kSlab, ElementKind::kCovering}) {}
 
   FloorIr Run() {
-    out_.walls = CollectWalls(plan_, sink_);
+    out_.walls = CollectWalls(plan_);
     for (const Level& level : levels_) {
       out_.floors.emplace_back();
       out_.floors.back().level = level;
@@ -56,6 +57,7 @@ class FootprintCutter {
     for (uint32_t e = 0; e < plan_.elements.size(); ++e) {
       if (plan_.elements[e].kind == ElementKind::kColumn) AddColumn(e);
     }
+    for (Floor& floor : out_.floors) AddFillings(floor);
     return std::move(out_);
   }
 
@@ -108,6 +110,39 @@ class FootprintCutter {
       if (box.min().z() < z && box.max().z() >= z) Add(floor, FootprintKind::kColumn, kNoIndex, {e}, {z}, true);
     }
   }
+
+  // Doors and windows that close a gap between walls: those that a section cuts and no wall holds.
+  void AddFillings(Floor& floor) {
+    std::vector<Footprint> out;
+    for (uint32_t e = 0; e < plan_.elements.size(); ++e) {
+      const PlanElement& element = plan_.elements[e];
+      if (element.kind != ElementKind::kDoor && element.kind != ElementKind::kWindow) continue;
+      const Eigen::AlignedBox3d box = Bounds(element.body);
+      if (box.isEmpty() || box.min().z() >= floor.level.section_z_m || box.max().z() < floor.level.section_z_m) continue;
+      std::vector<Eigen::Vector2d> points;
+      for (const Ring& ring : CutSolid(element.body, floor.level.section_z_m).rings) points.insert(points.end(), ring.begin(), ring.end());
+      Ring leaf = Rounded(LeastRectangle(std::move(points)), options_.grid_m);
+      if (leaf.size() == 4 && !IsHeld(floor, leaf)) out.push_back({FootprintKind::kFilling, kNoIndex, e, true, {std::move(leaf)}});
+    }
+    for (Footprint& f : out) floor.footprints.push_back(std::move(f));
+  }
+
+  // Whether a wall stands at the middle of a leaf or next to it; also for leaves too deep to close anything, as those that stand open.
+  bool IsHeld(const Floor& floor, const Ring& leaf) const {
+    Eigen::Vector2d across = leaf[1] - leaf[0];
+    if (across.norm() > (leaf[2] - leaf[1]).norm()) across = leaf[2] - leaf[1];
+    if (across.norm() > options_.max_curtain_depth_m) return true;
+    across.normalize();
+    const Eigen::Vector2d middle = 0.5 * (leaf[0] + leaf[2]);
+    for (const Footprint& f : floor.footprints) {
+      if (!f.bounds_rooms || !BoundingBox(f.rings).intersects(Eigen::AlignedBox2d(middle - Reach(), middle + Reach()))) continue;
+      for (double t = -options_.max_holding_distance_m; t <= options_.max_holding_distance_m; t += kHoldingStep_m) {
+        if (WindingNumber(f.rings, middle + t * across) != 0) return true;
+      }
+    }
+    return false;
+  }
+  Eigen::Vector2d Reach() const { return Eigen::Vector2d::Constant(options_.max_holding_distance_m); }
 
   std::vector<Ring> CutElements(const std::vector<uint32_t>& elements, const std::vector<double>& heights_m) {
     std::vector<Ring> out;
@@ -190,20 +225,19 @@ std::string FootprintOptions::Check() const {
   if (!(grid_m > 0 && grid_m < 0.01)) return fmt::format("FootprintOptions.grid_m = {}; must be in (0, 0.01)", grid_m);
   if (!(closed_above_gap_m >= 0)) return fmt::format("FootprintOptions.closed_above_gap_m = {}; must not be negative", closed_above_gap_m);
   if (!(max_curtain_depth_m > 0)) return fmt::format("FootprintOptions.max_curtain_depth_m = {}; must be positive", max_curtain_depth_m);
+  if (!(max_holding_distance_m >= 0))
+    return fmt::format("FootprintOptions.max_holding_distance_m = {}; must not be negative", max_holding_distance_m);
   return {};
 }
 
-std::vector<PlanWall> CollectWalls(const PlanIr& plan, DiagnosticSink& sink) {
+std::vector<PlanWall> CollectWalls(const PlanIr& plan) {
   std::vector<PlanWall> out;
   std::map<std::pair<std::string, uint64_t>, size_t> by_source;  // some programs give several walls one GlobalId
   for (uint32_t i = 0; i < plan.elements.size(); ++i) {
     const PlanElement& e = plan.elements[i];
     if (!ActsAsWall(e)) continue;
     const Eigen::AlignedBox3d box = Bounds(SectionSolid(e));
-    if (box.isEmpty() || SectionSolid(e).empty()) {
-      sink.Emit(DiagnosticKind::kWallNotCut, e.location, fmt::format("{} has no solid; it is left out", e.location.ToString()));
-      continue;
-    }
+    if (box.isEmpty() || SectionSolid(e).empty()) continue;  // the frontend has said so
     const auto known = e.guid.empty() ? by_source.end() : by_source.find({e.guid, e.location.step_id});
     if (known != by_source.end()) {
       PlanWall& wall = out[known->second];

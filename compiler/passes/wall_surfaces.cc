@@ -118,7 +118,19 @@ class SurfaceBuilder {
         runs.pop_back();
       }
     }
-    for (const Stretch& run : runs) AddSurface(floor, run, room);
+    for (const Stretch& run : runs) {
+      if (!FacesCrack(run, room)) AddSurface(floor, run, room);
+    }
+  }
+
+  // Before a side in a crack, as linings that do not quite touch leave them, there is no space to see it from.
+  bool FacesCrack(const Stretch& run, RoomId room) const {
+    if (!room.valid() || run.owner.arc != 0) return false;
+    const Eigen::Vector2d &from = run.points.front(), &to = run.points.back();
+    const Eigen::Vector2d before = 0.5 * (from + to) + options_.crack_m * Rot90Ccw((to - from).normalized());
+    const Room& r = graph_.rooms[room.index()];
+    const auto inside = [&](const Ring& ring) { return WindingNumber(std::span(&ring, 1), before) != 0; };
+    return !inside(r.polygon) || std::any_of(r.holes.begin(), r.holes.end(), inside);
   }
 
   void AddSurface(const Floor& floor, const Stretch& run, RoomId room) {
@@ -215,6 +227,7 @@ std::string SurfaceOptions::Check() const {
   if (!(collinear_m > 0)) return fmt::format("SurfaceOptions.collinear_m = {}; must be positive", collinear_m);
   if (!(arc_m > 0)) return fmt::format("SurfaceOptions.arc_m = {}; must be positive", arc_m);
   if (!(min_length_m > 0)) return fmt::format("SurfaceOptions.min_length_m = {}; must be positive", min_length_m);
+  if (!(crack_m > 0)) return fmt::format("SurfaceOptions.crack_m = {}; must be positive", crack_m);
   if (!(min_external_m > 0)) return fmt::format("SurfaceOptions.min_external_m = {}; must be positive", min_external_m);
   return {};
 }

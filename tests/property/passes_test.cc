@@ -18,8 +18,8 @@ namespace {
 
 double Uniform(std::mt19937_64& random, double lo, double hi) { return lo + (hi - lo) * static_cast<double>(random() >> 11) * 0x1p-53; }
 
-// A random apartment: a grid of rooms behind outer walls, butt joints with gaps up to 1 mm, doors in most inner walls, some columns.
-PlanIr Apartment(uint64_t seed) {
+// A random apartment: a grid of rooms behind outer walls, butt joints with gaps up to max_gap_m, doors in most inner walls, some columns.
+PlanIr Apartment(uint64_t seed, double max_gap_m = 0.001) {
   std::mt19937_64 random(seed);
   test::PlanBuilder b;
   b.Storey("Ground", 0);
@@ -27,7 +27,7 @@ PlanIr Apartment(uint64_t seed) {
   std::vector<double> x = {0}, y = {0};
   for (int i = 0; i < columns; ++i) x.push_back(x.back() + Uniform(random, 2.5, 6));
   for (int i = 0; i < rows; ++i) y.push_back(y.back() + Uniform(random, 2.5, 6));
-  const auto gap = [&random] { return Uniform(random, 0, 0.001); };
+  const auto gap = [&] { return Uniform(random, 0, max_gap_m); };
   const double t = 0.3, h = 0.06;
   const uint32_t south = b.Wall("south", {-t, -t / 2}, {x.back() + t, -t / 2}, t);
   b.Wall("north", {-t, y.back() + t / 2}, {x.back() + t, y.back() + t / 2}, t);
@@ -177,6 +177,18 @@ TEST_P(OnApartments, RoomsAndWallsFillTheEnclosedArea) {
 TEST_P(OnApartments, TheSameInputGivesTheSameBytes) {
   const PlanIr plan = Apartment(GetParam());
   EXPECT_EQ(WriteAGraph(Build(plan)), WriteAGraph(Build(plan)));
+}
+
+TEST_P(OnApartments, WallsThatDoNotQuiteMeetBoundTheSameRooms) {
+  const AGraph close = Build(Apartment(GetParam())), apart = Build(Apartment(GetParam(), 0.15));
+  ASSERT_EQ(apart.rooms.size(), close.rooms.size());
+  for (const Room& r : close.rooms) {
+    const auto same = [&](const Room& a) {
+      return (a.center - r.center).norm() < 0.01 && std::abs(a.area_m2 - r.area_m2) < 0.02 && a.surfaces.size() == r.surfaces.size();
+    };
+    EXPECT_EQ(std::count_if(apart.rooms.begin(), apart.rooms.end(), same), 1);
+  }
+  for (const Doorway& d : apart.doorways) EXPECT_NE(d.room_a, d.room_b);
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, OnApartments, testing::Range<uint64_t>(1, 9));

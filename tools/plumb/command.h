@@ -9,6 +9,9 @@
 namespace CLI {
 class App;
 }
+namespace plumb::compiler {
+struct CompileOptions;
+}
 
 namespace plumb::tools {
 
@@ -30,6 +33,9 @@ struct Session {
 // A subcommand with the options that all have (--config, --print-config, --quiet) and its examples below --help.
 [[nodiscard]] CLI::App* AddSubcommand(CLI::App& app, Session& session, const std::string& name, const std::string& description,
                                       const std::string& examples);
+
+// The flags of `plumb compile` that change what a plan becomes; `plumb validate` has them too.
+void AddCompileOptions(CLI::App& subcommand, compiler::CompileOptions& options);
 
 void AddCompile(CLI::App& app, Session& session);
 void AddDoctor(CLI::App& app, Session& session);

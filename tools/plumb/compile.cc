@@ -8,7 +8,7 @@
 #include <memory>
 #include <vector>
 
-#include "compiler/diagnostics/diagnostic.h"
+#include "compiler/validate.h"
 #include "schema/agraph_writer.h"
 #include "schema/files.h"
 #include "tools/plumb/command.h"
@@ -24,8 +24,8 @@ struct CompileFlags {
 };
 
 std::string Summary(const AGraph& g, const std::string& output) {
-  return fmt::format("{}: {} storeys, {} walls, {} surfaces, {} rooms, {} doorways, {} windows, {} triangles", output, g.storeys.size(), g.walls.size(),
-                     g.surfaces.size(), g.rooms.size(), g.doorways.size(), g.windows.size(), g.mesh.triangles.size());
+  return fmt::format("{}: {} storeys, {} walls, {} surfaces, {} rooms, {} doorways, {} windows, {} triangles", output, g.storeys.size(),
+                     g.walls.size(), g.surfaces.size(), g.rooms.size(), g.doorways.size(), g.windows.size(), g.mesh.triangles.size());
 }
 
 // With --quiet the errors alone remain.
@@ -53,10 +53,12 @@ Status RunCompile(const CompileFlags& flags, Session& session) {
   const auto& diagnostics = result.diagnostics.all();
   Tell(flags, diagnostics, session.console);
   if (!flags.diagnostics_json.empty()) {
-    const auto written = WriteFileAtomically(flags.diagnostics_json, std::string_view(compiler::DiagnosticsToJson(diagnostics, flags.plan)));
+    const std::string json = compiler::ReportToString(compiler::ReportOf(flags.plan, result), compiler::ReportFormat::kJson);
+    const auto written = WriteFileAtomically(flags.diagnostics_json, std::string_view(json));
     if (!written) return session.Fail(written.error());
   }
-  if (result.has_internal_error()) return session.Fail({ErrorCode::kInternal, fmt::format("the compiler failed on `{}`; see above", flags.plan)});
+  if (result.has_internal_error())
+    return session.Fail({ErrorCode::kInternal, fmt::format("the compiler failed on `{}`; see above", flags.plan)});
   if (!result.graph) return session.Fail({ErrorCode::kPlanUnsuitable, fmt::format("`{}` gives no A-Graph; see above", flags.plan)});
   if (const auto written = WriteAGraphFile(*result.graph, flags.output); !written) return session.Fail(written.error());
   session.console.Info(Summary(*result.graph, flags.output));
@@ -65,6 +67,14 @@ Status RunCompile(const CompileFlags& flags, Session& session) {
 
 }  // namespace
 
+void AddCompileOptions(CLI::App& subcommand, compiler::CompileOptions& options) {
+  subcommand.add_option("--section-height", options.section_height_m, "height above the storey's zero at which walls are cut, m");
+  subcommand.add_option("--snap-radius", options.snap_radius_m, "corners of walls closer than this become one, m");
+  subcommand.add_option("--min-room-area", options.min_room_area_m2, "smaller faces between walls are shafts, not rooms, m2");
+  subcommand.add_option("--max-gap", options.max_gap_m, "walls closer than this are taken to meet where that keeps two rooms apart, m");
+  subcommand.add_option("--divide-open-plans", options.divide_open_plans, "along the plan's spaces where no walls do; else one room");
+}
+
 void AddCompile(CLI::App& app, Session& session) {
   auto flags = std::make_shared<CompileFlags>();
   CLI::App* sub = AddSubcommand(app, session, "compile", "Turn a floor plan into an A-Graph: rooms, wall surfaces, doorways, triangles",
@@ -72,11 +82,10 @@ void AddCompile(CLI::App& app, Session& session) {
                                 "  plumb compile house.ifc.gz -o house.agraph --diagnostics-json house.json");
   sub->add_option("PLAN", flags->plan, "the plan: IFC as a STEP file, plain, gzipped or in a ZIP archive (.ifczip)")->required();
   sub->add_option("-o,--output", flags->output, "the A-Graph to write")->required()->type_name("FILE.agraph");
-  sub->add_option("--diagnostics-json", flags->diagnostics_json, "write what the compiler has to say about the plan as JSON")->type_name("FILE");
+  sub->add_option("--diagnostics-json", flags->diagnostics_json, "write what the compiler has to say about the plan as JSON")
+      ->type_name("FILE");
   sub->add_option("--max-per-kind", flags->max_per_kind, "print at most this many diagnostics of a kind");
-  sub->add_option("--section-height", flags->options.section_height_m, "height above the storey's zero at which walls are cut, m");
-  sub->add_option("--snap-radius", flags->options.snap_radius_m, "corners of walls closer than this become one, m");
-  sub->add_option("--min-room-area", flags->options.min_room_area_m2, "smaller faces between walls are shafts, not rooms, m2");
+  AddCompileOptions(*sub, flags->options);
   sub->callback([flags, &session] { session.status = RunCompile(*flags, session); });
 }
 

@@ -1,52 +1,56 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <memory>
-#include <optional>
+#include <vector>
 
-#include "compiler/diagnostics/diagnostic.h"
+#include "compiler/diagnostics/explanation.h"
 #include "tools/plumb/command.h"
+#include "tools/plumb/config.h"
 
 namespace plumb::tools {
 namespace {
 
 using compiler::DiagnosticKind;
 
-constexpr DiagnosticKind kAllKinds[] = {
-#define PLUMB_DIAGNOSTIC(code, name, severity, rule) DiagnosticKind::k##name,
-#include "compiler/diagnostics/diagnostic_kinds.def"
-#undef PLUMB_DIAGNOSTIC
-};
-
-const char* SeverityName(Severity severity) {
-  constexpr const char* kNames[] = {"note", "remark", "warning", "error"};
-  return kNames[static_cast<size_t>(severity)];
+std::string List() {
+  std::string out;
+  for (const DiagnosticKind kind : compiler::AllDiagnosticKinds()) {
+    out += fmt::format("{} {:<8} {:<24} {}\n", compiler::CodeOf(kind), compiler::SeverityName(compiler::SeverityOf(kind)),
+                       compiler::NameOf(kind), compiler::RuleOf(kind));
+  }
+  return out;
 }
 
-std::string Describe(DiagnosticKind kind) {
-  return fmt::format("{} {} ({}): {}\n", compiler::CodeOf(kind), compiler::NameOf(kind), SeverityName(compiler::SeverityOf(kind)),
-                     compiler::RuleOf(kind));
+Error Unknown(const std::string& code) {
+  std::vector<std::string> names;
+  for (const DiagnosticKind kind : compiler::AllDiagnosticKinds()) names.emplace_back(compiler::NameOf(kind));
+  const std::string near = NearestName(code, names);
+  return {ErrorCode::kBadOption, fmt::format("there is no diagnostic `{}`; {}", code,
+                                             near.empty() ? "`plumb explain` lists them" : fmt::format("did you mean `{}`?", near))};
 }
 
 Status RunExplain(const std::string& code, Session& session) {
-  bool found = false;
-  for (const DiagnosticKind kind : kAllKinds) {
-    if (!code.empty() && code != compiler::CodeOf(kind) && code != compiler::NameOf(kind)) continue;
-    session.console.Print(Describe(kind));
-    found = true;
+  if (code.empty()) {
+    session.console.Print(List());
+    return Status::kFine;
   }
-  if (found) return Status::kFine;
-  return session.Fail({ErrorCode::kBadOption, fmt::format("there is no diagnostic `{}`; `plumb explain` lists them", code)});
+  const auto kind = compiler::FindDiagnosticKind(code);
+  if (!kind) return session.Fail(Unknown(code));
+  session.console.Print(compiler::ExplanationText(*kind));
+  return Status::kFine;
 }
 
 }  // namespace
 
 void AddExplain(CLI::App& app, Session& session) {
   auto code = std::make_shared<std::string>();
-  CLI::App* sub = AddSubcommand(app, session, "explain", "Say what a diagnostic code means",
-                                "  plumb explain PL2001\n"
+  CLI::App* sub = AddSubcommand(app, session, "explain", "Say what a diagnostic code means, why it matters to a robot and how to mend it",
+                                "  plumb explain PL7103\n"
+                                "  plumb explain RoomWithoutDoorway\n"
                                 "  plumb explain");
-  sub->add_option("CODE", *code, "code or name of a diagnostic; without it, all of them");
+  sub->add_option("CODE", *code, "code or name of a diagnostic; without it, all of them are listed");
   sub->callback([code, &session] { session.status = RunExplain(*code, session); });
 }
 

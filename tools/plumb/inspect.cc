@@ -1,79 +1,81 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <iterator>
+#include <filesystem>
 #include <memory>
-#include <numbers>
+#include <system_error>
+#include <vector>
 
 #include "schema/agraph_json.h"
 #include "schema/agraph_reader.h"
 #include "schema/files.h"
+#include "tools/drawing/plan_sheet.h"
+#include "tools/inspect/graph_text.h"
+#include "tools/inspect/graphml.h"
+#include "tools/inspect/occupancy_map.h"
+#include "tools/inspect/storeys.h"
 #include "tools/plumb/command.h"
-#include "tools/report/floor_plan_svg.h"
 
 namespace plumb::tools {
 namespace {
 
 struct InspectFlags {
-  std::string path, svg;
+  std::string path, svg, graphml, nav2, storey;
   bool json = false;
-  uint32_t storey = 0;
+  OccupancyOptions occupancy;
 };
 
-std::string RoomName(const AGraph& g, RoomId id) { return id.valid() ? g.rooms[id.index()].name : std::string("outside"); }
+std::string NameOf(const AGraph& graph, StoreyId storey) { return graph.storeys[storey.index()].name; }
 
-void AliasesToText(const AGraph& g, std::string& out) {
-  auto write = std::back_inserter(out);
-  for (size_t i = 0; i < g.aliases.size(); ++i) {
-    const Alias& a = g.aliases[i];
-    fmt::format_to(write, "\nalias {}: turned by {:.1f} deg, moved by ({:.2f}, {:.2f}, {:.2f}) m; {:.0f} % of {:.0f} m of wall sections coincide within {} m{}\n", i,
-                   a.yaw_rad * 180 / std::numbers::pi, a.translation.x(), a.translation.y(), a.translation.z(), 100 * a.overlap_ratio,
-                   a.section_length_m, a.tolerance_m, a.closed ? "" : "; other rooms tell");
-    for (size_t k = 0; k < a.rooms.size(); ++k) fmt::format_to(write, "  {} = {}\n", RoomName(g, a.rooms[k]), RoomName(g, a.twins[k]));
-  }
-  if (!g.look_alikes.empty()) fmt::format_to(write, "\nrooms that look alike from inside\n");
-  for (const LookAlikes& l : g.look_alikes) {
-    for (size_t k = 0; k < l.rooms.size(); ++k) fmt::format_to(write, "{}{}", k == 0 ? "  " : " = ", RoomName(g, l.rooms[k]));
-    fmt::format_to(write, "\n");
-  }
+Expected<void> WriteSvg(const AGraph& graph, const InspectFlags& flags, StoreyId chosen, Console& console) {
+  const std::vector<StoreyId> storeys = chosen.valid() ? std::vector<StoreyId>{chosen} : DrawnStoreys(graph);
+  if (auto written = WriteFileAtomically(flags.svg, std::string_view(FloorPlansToSvg(graph, storeys))); !written) return written;
+  std::string names;
+  for (const StoreyId storey : storeys) names += (names.empty() ? "" : ", ") + NameOf(graph, storey);
+  console.Info(fmt::format("{}: floor plan of {}", flags.svg, names.empty() ? "nothing: no storey has walls or rooms" : names));
+  return {};
 }
 
-std::string GraphToText(const AGraph& g) {
-  std::string out;
-  auto write = std::back_inserter(out);
-  fmt::format_to(write, "source    {} ({})\n", g.source_path, g.source_format);
-  fmt::format_to(write, "contents  {} storeys, {} walls, {} surfaces, {} rooms, {} doorways, {} windows, {} columns, {} triangles\n", g.storeys.size(),
-                 g.walls.size(), g.surfaces.size(), g.rooms.size(), g.doorways.size(), g.windows.size(), g.columns.size(), g.mesh.triangles.size());
-  for (size_t s = 0; s < g.storeys.size(); ++s) {
-    fmt::format_to(write, "\nstorey {}: {}, {:+.3f} m\n", s, g.storeys[s].name, g.storeys[s].elevation_m);
-    for (size_t i = 0; i < g.rooms.size(); ++i) {
-      const Room& r = g.rooms[i];
-      if (r.storey != StoreyId(s)) continue;
-      fmt::format_to(write, "  room {:>3}  {:<28} {:>8.2f} m2  {} surfaces\n", i, r.name, r.area_m2, r.surfaces.size());
-    }
-    for (size_t i = 0; i < g.doorways.size(); ++i) {
-      const Doorway& d = g.doorways[i];
-      if (d.storey != StoreyId(s)) continue;
-      fmt::format_to(write, "  door {:>3}  {} - {}, {:.2f} m wide\n", i, RoomName(g, d.room_a), RoomName(g, d.room_b), d.width_m);
-    }
-  }
-  AliasesToText(g, out);
-  return out;
+Expected<void> WriteNav2(const AGraph& graph, const InspectFlags& flags, StoreyId chosen, Console& console) {
+  const StoreyId storey = chosen.valid() ? chosen : MainStorey(graph);
+  if (!storey.valid()) return Fail(ErrorCode::kPlanUnsuitable, fmt::format("`{}` has no storey to make a map of", flags.path));
+  const auto map = MakeOccupancyMap(graph, storey, flags.occupancy);
+  if (!map) return tl::unexpected(map.error());
+  const std::filesystem::path folder(flags.nav2);
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) return Fail(ErrorCode::kFileUnwritable, fmt::format("cannot create `{}`: {}", flags.nav2, error.message()));
+  // The image first: no reader finds a map.yaml without it.
+  if (auto written = WriteFileAtomically((folder / "map.pgm").string(), std::string_view(MapPgm(*map))); !written) return written;
+  if (auto written = WriteFileAtomically((folder / "map.yaml").string(), std::string_view(MapYaml(*map, "map.pgm"))); !written)
+    return written;
+  console.Info(fmt::format("{}: map.yaml and map.pgm of {}, {} x {} cells, cut {} m above the floor", flags.nav2, NameOf(graph, storey),
+                           map->columns, map->rows, flags.occupancy.height_m));
+  return {};
 }
 
 Status RunInspect(const InspectFlags& flags, Session& session) {
   const auto graph = ReadAGraphFile(flags.path);
   if (!graph) return session.Fail(graph.error());
-  if (!flags.svg.empty()) {
-    if (flags.storey >= graph->storeys.size()) {
-      return session.Fail({ErrorCode::kBadOption, fmt::format("--storey {}; `{}` has {} storeys, counted from 0", flags.storey, flags.path,
-                                                              graph->storeys.size())});
-    }
-    const auto written = WriteFileAtomically(flags.svg, std::string_view(FloorPlanToSvg(*graph, StoreyId(flags.storey))));
-    if (!written) return session.Fail(written.error());
-    return Status::kFine;
+  StoreyId storey;
+  if (!flags.storey.empty()) {
+    const auto found = FindStorey(*graph, flags.storey);
+    if (!found) return session.Fail(found.error());
+    storey = *found;
   }
-  session.console.Print(flags.json ? AGraphToJson(*graph) : GraphToText(*graph));
+  if (!flags.svg.empty()) {
+    if (const auto written = WriteSvg(*graph, flags, storey, session.console); !written) return session.Fail(written.error());
+  }
+  if (!flags.graphml.empty()) {
+    if (const auto written = WriteFileAtomically(flags.graphml, std::string_view(AGraphToGraphMl(*graph))); !written)
+      return session.Fail(written.error());
+  }
+  if (!flags.nav2.empty()) {
+    if (const auto written = WriteNav2(*graph, flags, storey, session.console); !written) return session.Fail(written.error());
+  }
+  const bool wrote = !flags.svg.empty() || !flags.graphml.empty() || !flags.nav2.empty();
+  if (flags.json) session.console.Print(AGraphToJson(*graph));
+  if (!flags.json && !wrote) session.console.Print(AGraphToText(*graph));
   return Status::kFine;
 }
 
@@ -81,14 +83,24 @@ Status RunInspect(const InspectFlags& flags, Session& session) {
 
 void AddInspect(CLI::App& app, Session& session) {
   auto flags = std::make_shared<InspectFlags>();
-  CLI::App* sub = AddSubcommand(app, session, "inspect", "Show what is in an A-Graph",
+  CLI::App* sub = AddSubcommand(app, session, "inspect", "Show what is in an A-Graph: text, JSON, floor plans, graph, map for nav2",
                                 "  plumb inspect house.agraph\n"
                                 "  plumb inspect house.agraph --json\n"
-                                "  plumb inspect house.agraph --svg ground.svg --storey 0");
+                                "  plumb inspect house.agraph --svg house.svg\n"
+                                "  plumb inspect house.agraph --svg ground.svg --storey \"Ground floor\"\n"
+                                "  plumb inspect house.agraph --graphml house.graphml\n"
+                                "  plumb inspect house.agraph --nav2 map/ --storey 0 --height_m 0.25 --resolution_m 0.02");
   sub->add_option("FILE.agraph", flags->path, "the A-Graph")->required();
   sub->add_flag("--json", flags->json, "print it as JSON");
-  sub->add_option("--svg", flags->svg, "draw one storey's floor plan into this file")->type_name("FILE.svg");
-  sub->add_option("--storey", flags->storey, "the storey to draw, counted from 0");
+  sub->add_option("--svg", flags->svg, "draw the floor plans of all storeys, or of --storey, to scale into this file")
+      ->type_name("FILE.svg");
+  sub->add_option("--graphml", flags->graphml, "write rooms, doorways and surfaces as a graph, for yEd or networkx")
+      ->type_name("FILE.graphml");
+  sub->add_option("--nav2", flags->nav2, "write map.yaml and map.pgm of --storey, or of the one with most rooms, into this folder")
+      ->type_name("DIR");
+  sub->add_option("--storey", flags->storey, "the storey, by name or counted from 0")->type_name("NAME");
+  sub->add_option("--height_m", flags->occupancy.height_m, "of the sensor above the floor, for --nav2, m");
+  sub->add_option("--resolution_m", flags->occupancy.resolution_m, "edge of a cell, for --nav2, m");
   sub->callback([flags, &session] { session.status = RunInspect(*flags, session); });
 }
 

@@ -44,8 +44,8 @@ std::string WithHint(const CLI::App& app, const CLI::ParseError& error, const st
 void AddSubcommands(CLI::App& app, Session& session) {
 #ifdef PLUMB_WITH_COMPILER
   AddCompile(app, session);
-#endif
   AddValidate(app, session);
+#endif
   AddInspect(app, session);
 #ifdef PLUMB_WITH_SIMULATE
   AddSimulate(app, session);

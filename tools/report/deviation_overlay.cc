@@ -48,8 +48,8 @@ void AddDeviated(const Surface& s, const SurfaceEntry& entry, double limit_m, co
   }
   const auto [start, end] = EndDisplacements(s, entry);
   const std::string data = fmt::format("style=\"--dev:{}\" data-a=\"{}\" data-b=\"{}\" data-da=\"{} {}\" data-db=\"{} {}\"",
-                                       DeviationColor(entry.translation_m, limit_m), sheet.At(s.start), sheet.At(s.end), Decimal(100 * start.x()),
-                                       Decimal(-100 * start.y()), Decimal(100 * end.x()), Decimal(-100 * end.y()));
+                                       DeviationColor(entry.translation_m, limit_m), sheet.At(s.start), sheet.At(s.end), Decimal(sheet.Length(start.x())),
+                                       Decimal(-sheet.Length(start.y())), Decimal(sheet.Length(end.x())), Decimal(-sheet.Length(end.y())));
   const std::string area = sheet.Closed({s.start, s.end, s.end + end, s.start + start});
   if (entry.translation_m > 0) {
     layers.wall_now += fmt::format("<path class=\"dev wall-now\" d=\"{}\" {}/>\n", area, data);

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "schema/agraph.h"
-#include "tools/report/svg.h"
+#include "tools/drawing/svg.h"
 #include "tools/run/run_folder.h"
 
 namespace plumb::tools {

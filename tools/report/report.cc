@@ -9,9 +9,11 @@
 #include <set>
 
 #include "tools/report/deviation_overlay.h"
-#include "tools/report/floor_plan_svg.h"
+#include "tools/drawing/floor_plan.h"
+#include "tools/drawing/plan_sheet.h"
+#include "tools/drawing/room_labels.h"
 #include "tools/report/report_page.h"
-#include "tools/report/svg.h"
+#include "tools/drawing/svg.h"
 #include "tools/report/trajectory_overlay.h"
 
 namespace plumb::tools {
@@ -62,7 +64,7 @@ std::string Figure(const AGraph& plan, StoreyId storey, const Run& run, const st
       "<g class=\"layer-rooms\">\n{}</g>\n<g class=\"layer-surfaces\">\n{}</g>\n{}</svg></figure>\n",
       EscapeXml(plan.storeys[storey.index()].name), Decimal(sheet.width()), Decimal(sheet.height()), DrawFloorPlan(plan, storey, sheet),
       DrawSurfaces(plan, storey, run.deviations, limit_m, sheet), DrawTrajectory(plan, storey, run, sheet), DrawRoomLabels(plan, storey, sheet),
-      DrawWallNumbers(plan, storey, rows, sheet), DrawScaleBar(sheet));
+      DrawWallNumbers(plan, storey, rows, sheet), DrawScaleBar(sheet, 30, sheet.height() - 45));
 }
 
 // Storeys that the robot was on; all of them where its way is not known.

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "tools/report/svg.h"
+#include "tools/drawing/svg.h"
 
 namespace plumb::tools {
 

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "schema/agraph.h"
-#include "tools/report/svg.h"
+#include "tools/drawing/svg.h"
 #include "tools/run/run_folder.h"
 
 namespace plumb::tools {

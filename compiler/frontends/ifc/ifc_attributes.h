@@ -13,6 +13,7 @@ inline constexpr size_t kSpatialLongName = 7, kStoreyElevation = 9;
 inline constexpr size_t kOverallHeight = 8, kOverallWidth = 9;  // IfcDoor, IfcWindow
 inline constexpr size_t kSlabType = 8, kObjectType = 4;
 inline constexpr size_t kProjectUnits = 8;
+inline constexpr size_t kContextTrueNorth = 5;
 
 // Relations.
 inline constexpr size_t kContainedElements = 4, kContainingStructure = 5;

@@ -55,6 +55,7 @@ class Frontend {
 
   PlanIr Run() {
     if (model_.is_too_complex()) return {};
+    ReadNorth();
     ReadStoreys();
     MakeElements();
     MakeOpenings();
@@ -65,12 +66,22 @@ class Frontend {
                               plan_.origin.x(), plan_.origin.y(), plan_.origin.z()));
       CheckGeoreference(model_, plan_.origin);
     }
-    if (plan_.storeys.empty()) MakeStorey();
     return std::move(plan_);
   }
 
  private:
   std::string TextOf(uint32_t instance, size_t attribute_index) const { return model_.Get(instance)[attribute_index].Text(); }
+
+  // Of the first context that states it; without, the plan's y axis may or may not be north.
+  void ReadNorth() {
+    for (const uint32_t context : model_.InstancesOf(IfcType::kIfcGeometricRepresentationContext)) {
+      const StepValue north = model_.Get(context)[attribute::kContextTrueNorth];
+      if (!model_.Follow(north)) continue;
+      const Eigen::Vector3d direction = placements_.Direction(north, Eigen::Vector3d::UnitY());
+      plan_.true_north_rad = std::atan2(direction.y(), direction.x());
+      return;
+    }
+  }
 
   void ReadStoreys() {
     struct Entry {
@@ -152,10 +163,6 @@ class Frontend {
       if (IsWallLike(product.kind)) {
         DescribeWall(product, element);
         CheckWall(product);
-        if (element.storey == kNoIndex) {
-          model_.Emit(DiagnosticKind::kElementWithoutStorey, product.instance,
-                      fmt::format("{} is contained in no storey", model_.Label(product.instance)));
-        }
       }
       if (HasUncut(p)) {
         for (const ShapePart& part : product.parts) AppendSolid(part.solid, element.uncut);
@@ -284,22 +291,6 @@ class Frontend {
       for (const ShapePart& part : products_.PlacedBody(instance)) AppendSolid(part.solid, space.body);
       plan_.spaces.push_back(std::move(space));
     }
-  }
-
-  void MakeStorey() {
-    double low_m = 0;
-    bool first = true;
-    for (const PlanElement& element : plan_.elements) {
-      if (!IsWallLike(element.kind) || element.body.empty()) continue;
-      const double z = Bounds(element.body).min().z();
-      low_m = first ? z : std::min(low_m, z);
-      first = false;
-    }
-    model_.Emit(DiagnosticKind::kNoStorey, kNone,
-                fmt::format("the file has no IfcBuildingStorey; one storey at {} m, under the lowest wall, holds everything", low_m));
-    plan_.storeys.push_back({{}, "storey", {}, low_m});
-    for (PlanElement& element : plan_.elements) element.storey = 0;
-    for (PlanSpace& space : plan_.spaces) space.storey = 0;
   }
 
   const IfcModel& model_;

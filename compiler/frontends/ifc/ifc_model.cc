@@ -113,6 +113,7 @@ SourceLocation IfcModel::Location(uint32_t index) const {
   if (index == StepFile::kNone) return {};
   SourceLocation location;
   location.line = file_.Line(index);
+  location.column = file_.Column(index);
   location.step_id = file_.id(index);
   location.type = TypeName(index);
   const StepValue first = file_.Arguments(index)[attribute::kGlobalId];

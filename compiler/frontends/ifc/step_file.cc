@@ -109,6 +109,7 @@ class StepIndexer {
     if (complaints_ == kMaxSyntaxDiagnostics) message += "; further syntax errors are not listed";
     SourceLocation location;
     location.line = file_.LineAt(static_cast<size_t>(at - begin_));
+    location.column = file_.ColumnAt(static_cast<size_t>(at - begin_));
     diagnostics_.Emit(kind, location, std::move(message));
   }
 
@@ -265,7 +266,7 @@ void StepFile::BuildLookup(DiagnosticSink& diagnostics) {
   size_t duplicates = 0;
   const auto duplicate = [&](uint32_t instance) {
     if (++duplicates > kMaxSyntaxDiagnostics) return;
-    SourceLocation location{Line(instance), ids_[instance], {}, type_names_[types_[instance]]};
+    const SourceLocation location{Line(instance), ids_[instance], {}, type_names_[types_[instance]], Column(instance)};
     diagnostics.Emit(DiagnosticKind::kDuplicateInstance, location, fmt::format("`#{}` is used again; the first one holds", ids_[instance]));
   };
   if (max_id < 16 * uint64_t{ids_.size()} + 1024) {
@@ -305,6 +306,16 @@ uint32_t StepFile::Find(uint64_t id) const {
 
 std::span<const uint32_t> StepFile::InstancesOf(uint16_t type) const {
   return std::span(by_type_).subspan(type_starts_[type], type_starts_[type + 1u] - type_starts_[type]);
+}
+
+size_t StepFile::StartOf(uint32_t instance) const {
+  const size_t at = text_.rfind('#', offsets_[instance]);
+  return at == std::string_view::npos ? offsets_[instance] : at;
+}
+
+uint32_t StepFile::ColumnAt(size_t offset) const {
+  const size_t newline = offset == 0 ? std::string_view::npos : text_.rfind(newline_, offset - 1);
+  return static_cast<uint32_t>(newline == std::string_view::npos ? offset + 1 : offset - newline);
 }
 
 uint32_t StepFile::LineAt(size_t offset) const {

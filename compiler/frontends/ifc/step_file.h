@@ -35,7 +35,9 @@ class StepFile {
     const size_t end = instance + 1 < size() ? offsets_[instance + 1] : text_.size();
     return {text_.data() + offsets_[instance], text_.data() + end};
   }
-  [[nodiscard]] uint32_t Line(uint32_t instance) const { return LineAt(offsets_[instance]); }
+  // Where its `#` stands, both counted from 1; columns in bytes.
+  [[nodiscard]] uint32_t Line(uint32_t instance) const { return LineAt(StartOf(instance)); }
+  [[nodiscard]] uint32_t Column(uint32_t instance) const { return ColumnAt(StartOf(instance)); }
 
   // Types are numbered in the order of their first use; names as written, in capitals.
   [[nodiscard]] uint16_t type(uint32_t instance) const { return types_[instance]; }
@@ -52,7 +54,9 @@ class StepFile {
   StepFile() = default;
   void BuildLookup(DiagnosticSink& diagnostics);
   void BuildTypeLists();
+  [[nodiscard]] size_t StartOf(uint32_t instance) const;
   [[nodiscard]] uint32_t LineAt(size_t offset) const;
+  [[nodiscard]] uint32_t ColumnAt(size_t offset) const;
 
   std::string_view text_;
   std::vector<uint64_t> ids_;

@@ -90,6 +90,33 @@ TEST(ValidateGraph, FindsEmptyPlans) {
   EXPECT_EQ(CountOf(g, DiagnosticKind::kWallWithoutSurfaces), 1u);
 }
 
+TEST(ValidateGraph, FindsStoreysWhoseWallsAreAllParallel) {
+  AGraph g = test::MakeHouse();
+  std::erase_if(g.rooms, [](const Room&) { return true; });
+  g.doorways.clear();
+  std::erase_if(g.surfaces, [](const Surface& s) { return std::abs(s.normal.x()) > 0.5; });
+  EXPECT_EQ(CountOf(g, DiagnosticKind::kWallsInOneDirection), 1u);
+  EXPECT_EQ(CountOf(g, DiagnosticKind::kNowhereToLocalize), 1u);
+  g.surfaces[0].arc = Arc{{0, 0}, 3, 0, 1};
+  EXPECT_EQ(CountOf(g, DiagnosticKind::kWallsInOneDirection), 0u);
+  EXPECT_EQ(CountOf(g, DiagnosticKind::kNowhereToLocalize), 0u);
+}
+
+TEST(ReportOf, AnswersWithTheOutcome) {
+  CompileResult result;
+  EXPECT_EQ(ReportOf("p", result).outcome, Outcome::kBadInput);
+  result.graph = test::MakeHouse();
+  EXPECT_EQ(ReportOf("p", result, true).outcome, Outcome::kFine);
+  EXPECT_EQ(ReportOf("p", result).answer, "a robot can localize in this (3 rooms, 16 wall surfaces, 1 storey)");
+  result.diagnostics.Emit(DiagnosticKind::kRoomWithoutDoorway, {}, "w");
+  EXPECT_EQ(ReportOf("p", result).outcome, Outcome::kFine);
+  EXPECT_EQ(ReportOf("p", result, true).outcome, Outcome::kFindings);
+  result.diagnostics.Emit(DiagnosticKind::kRoomsOverlap, {}, "e");
+  EXPECT_EQ(ReportOf("p", result).outcome, Outcome::kFindings);
+  result.diagnostics.Emit(DiagnosticKind::kInternalError, {}, "i");
+  EXPECT_EQ(ReportOf("p", result).outcome, Outcome::kInternal);
+}
+
 TEST(Compile, RefusesInvalidOptions) {
   CompileOptions options;
   options.snap_radius_m = 0;

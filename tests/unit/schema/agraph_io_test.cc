@@ -29,6 +29,7 @@ TEST(AGraphIo, KeepsArcsAliasesAndFactors) {
   house.aliases.push_back({3.14, {1, 2, 0}, 0.9, StoreyId(0), StoreyId(0), {RoomId(0)}, {RoomId(1)}, 0.06, 12.5, true, {ElementId(2)}});
   house.look_alikes.push_back({{RoomId(0), RoomId(2)}});
   house.factors.push_back({FactorKind::kRoomSurfaces, {0, 0, 1, 2, 3}});
+  house.true_north_rad = 0.0;
   house.open_boundaries.push_back({StoreyId(0), RoomId(1), RoomId(2), {1, 2}, {3, 4}});
   const Expected<AGraph> read = ReadAGraph(WriteAGraph(house));
   ASSERT_TRUE(read) << read.error().message;
@@ -40,6 +41,7 @@ TEST(AGraphIo, KeepsArcsAliasesAndFactors) {
   EXPECT_TRUE(read->aliases[0].closed);
   EXPECT_EQ(read->aliases[0].differences, house.aliases[0].differences);
   EXPECT_EQ(read->look_alikes[0].rooms, house.look_alikes[0].rooms);
+  EXPECT_EQ(read->true_north_rad, 0.0);
   EXPECT_EQ(read->factors[0].variables.size(), 5u);
   ASSERT_EQ(read->open_boundaries.size(), 1u);
   EXPECT_EQ(read->open_boundaries[0].room_b, RoomId(2));
@@ -110,13 +112,11 @@ TEST(AGraphIo, SurvivesEveryTruncation) {
 TEST(AGraphIo, SurvivesFlippedBits) {
   const std::vector<uint8_t> bytes = WriteAGraph(test::MakeHouse());
   std::mt19937 random(7);
-  int refused = 0;
   for (int round = 0; round < 2000; ++round) {
     std::vector<uint8_t> damaged = bytes;
-    for (int k = 0; k < 3; ++k) damaged[random() % damaged.size()] ^= static_cast<uint8_t>(1u << (random() % 8));
-    refused += !ReadAGraph(damaged);  // may load: a changed coordinate is a valid coordinate
+    for (int k = 0; k <= round % 3; ++k) damaged[random() % damaged.size()] ^= static_cast<uint8_t>(1u << (random() % 8));
+    EXPECT_TRUE(damaged == bytes || !ReadAGraph(damaged)) << round;
   }
-  EXPECT_GT(refused, 100);
 }
 
 TEST(AGraphIo, WritesTheSameBytesTwice) { EXPECT_EQ(WriteAGraph(test::MakeHouse()), WriteAGraph(test::MakeHouse())); }

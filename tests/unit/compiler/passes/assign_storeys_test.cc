@@ -39,6 +39,7 @@ TEST(AssignStoreys, MakesAStoreyAtTheLowestWall) {
   ASSERT_EQ(plan.storeys.size(), 1u);
   EXPECT_DOUBLE_EQ(plan.storeys[0].elevation_m, -0.3);
   EXPECT_EQ(CountOf(sink, DiagnosticKind::kStoreyMissing), 1u);
+  EXPECT_EQ(CountOf(sink, DiagnosticKind::kStoreyFromGeometry), 0u);
 }
 
 TEST(GroupStoreys, ALandingSharesTheLevelBelowIt) {

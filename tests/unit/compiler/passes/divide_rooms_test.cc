@@ -52,6 +52,9 @@ TEST_F(DivideRoomsTest, StripsBesideTheSpacesGoToANeighbour) {
   const Room *dining = FindRoom(graph, "Dining"), *cooking = FindRoom(graph, "Cooking");
   ASSERT_TRUE(dining != nullptr && cooking != nullptr);
   EXPECT_NEAR(dining->area_m2 + cooking->area_m2, 4.9 * 4, 1e-6);
+  EXPECT_NEAR(dining->area_m2, 3.2 * 4, 0.5);
+  EXPECT_EQ(dining->surfaces.size(), 3u);
+  EXPECT_EQ(cooking->surfaces.size(), 3u);
   EXPECT_TRUE(graph.open_boundaries.size() >= 1u);
 }
 
@@ -75,6 +78,26 @@ TEST_F(DivideRoomsTest, ZonesOfSeveralSpacesDivideNothing) {
   EXPECT_EQ(graph.rooms.size(), 3u);
   EXPECT_NE(FindRoom(graph, "Dining"), nullptr);
   EXPECT_EQ(FindRoom(graph, "Flat"), nullptr);
+}
+
+TEST_F(DivideRoomsTest, ASpaceThatNoWallBoundsDividesNothing) {
+  Space("Corner", {0, 0}, {2, 2});
+  Space("Bar", {2.5, 1}, {4, 3});
+  const AGraph graph = Build(builder_.plan).graph;
+  EXPECT_EQ(graph.rooms.size(), 3u);
+  EXPECT_NE(FindRoom(graph, "Corner"), nullptr);
+  EXPECT_EQ(FindRoom(graph, "Bar"), nullptr);
+  for (const Room& r : graph.rooms) EXPECT_FALSE(r.surfaces.empty()) << r.name;
+}
+
+TEST_F(DivideRoomsTest, OpenPlansAreKeptIfSoChosen) {
+  Space("Dining", {0, 0}, {3.2, 4});
+  Space("Cooking", {3.2, 0}, {4.9, 4});
+  PassOptions options;
+  options.division.divide = false;
+  const AGraph graph = Build(builder_.plan, options).graph;
+  EXPECT_EQ(graph.rooms.size(), 2u);
+  EXPECT_TRUE(graph.open_boundaries.empty());
 }
 
 TEST_F(DivideRoomsTest, OneSpaceAloneDividesNothing) {

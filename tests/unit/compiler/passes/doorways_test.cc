@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include <cmath>
 #include <numbers>
 
@@ -188,6 +190,22 @@ TEST(Doorways, OnTheUpperStoreyJoinItsRooms) {
   EXPECT_EQ(graph.rooms[d->room_a.index()].storey, StoreyId(1));
   EXPECT_EQ(graph.rooms[d->room_b.index()].storey, StoreyId(1));
   EXPECT_NEAR(d->position.z(), 2.7, 1e-9);
+}
+
+TEST(Doorways, AVoidThatReachesFarBeyondItsWallIsPlacedInTheWall) {
+  PlanIr plan = test::TwoRooms();
+  // The inner door's void reaches 3 m to the west.
+  for (PlanOpening& o : plan.openings) {
+    if (o.guid == "opening-D") o.body = test::Prism(test::Rectangle({2, 1.05}, {5.11, 1.95}), 0, 2.1);
+  }
+  const AGraph graph = Build(plan).graph;
+  const auto door = std::find_if(graph.doorways.begin(), graph.doorways.end(), [](const Doorway& d) { return d.guid == "D"; });
+  ASSERT_NE(door, graph.doorways.end());
+  ASSERT_TRUE(door->wall.valid());
+  EXPECT_EQ(graph.walls[door->wall.index()].guid, "inner");
+  EXPECT_TRUE((door->position.head<2>() - Eigen::Vector2d(5, 1.5)).norm() < 1e-6);
+  EXPECT_NEAR(door->width_m, 0.9, 1e-6);
+  EXPECT_TRUE(door->room_a.valid() && door->room_b.valid());
 }
 
 }  // namespace

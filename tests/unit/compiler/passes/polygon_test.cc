@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "tests/support/plan_builder.h"
 
@@ -52,6 +53,25 @@ TEST(Polygon, LeastRectangleOfARotatedOne) {
   for (const auto& p : Rectangle({0, 0}, {3, 1})) points.push_back(turn * p);
   points.push_back(turn * Eigen::Vector2d(1, 0.5));
   EXPECT_NEAR(SignedArea(LeastRectangle(points)), 3, 1e-9);
+}
+
+TEST(OverlapArea, HostilePolygonsTakeBoundedTime) {
+  // A star of 601 corners, each joined to those almost opposite: some 180,000 crossings. Beyond a third of the radius the share of a
+  // circle that lies within its points is (1 / r - 1) / 2.
+  Ring star;
+  for (int i = 0; i < 601; ++i) {
+    const double a = 2 * std::numbers::pi * i * 300 / 601;
+    star.emplace_back(std::cos(a), std::sin(a));
+  }
+  EXPECT_NEAR(RegionArea(std::vector<Ring>{star}), std::numbers::pi / 3, 1e-3);
+}
+
+TEST(CommonCorners, AreThoseOfTheIntersection) {
+  const std::vector<Ring> a = {test::Rectangle({0, 0}, {4, 1})}, b = {test::Rectangle({1, -3}, {2, 3})}, c = {test::Rectangle({9, 9}, {10, 10})};
+  Eigen::AlignedBox2d box;
+  for (const auto& p : CommonCorners(a, b)) box.extend(p);
+  EXPECT_TRUE(box.isApprox(Eigen::AlignedBox2d(Eigen::Vector2d(1, 0), Eigen::Vector2d(2, 1))));
+  EXPECT_TRUE(CommonCorners(a, c).empty());
 }
 
 }  // namespace

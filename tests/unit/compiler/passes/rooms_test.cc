@@ -130,6 +130,43 @@ TEST(FindRooms, ShaftsCavitiesAndCrawlSpacesAreNoRooms) {
   EXPECT_EQ(CountOf(sink, DiagnosticKind::kRoomTooLow), 1u);
 }
 
+// A hall two storeys high on the left, rooms on both storeys on the right.
+test::PlanBuilder Hall() {
+  test::PlanBuilder b;
+  b.Storey("Ground", 0);
+  b.Wall("s", {-0.2, -0.1}, {8.2, -0.1}, 0.2, 0, 6);
+  b.Wall("n", {-0.2, 4.1}, {8.2, 4.1}, 0.2, 0, 6);
+  b.Wall("w", {-0.1, 0}, {-0.1, 4}, 0.2, 0, 6);
+  b.Wall("e", {8.1, 0}, {8.1, 4}, 0.2, 0, 6);
+  b.Wall("inner", {4, 0}, {4, 4}, 0.2, 0, 6);
+  b.Prismatic(ElementKind::kSlab, "floor", test::Rectangle({-0.2, -0.2}, {8.2, 4.2}), -0.2, 0);
+  b.Prismatic(ElementKind::kSlab, "ceiling", test::Rectangle({4, -0.2}, {8.2, 4.2}), 2.8, 3);
+  b.Prismatic(ElementKind::kRoof, "roof", test::Rectangle({-0.2, -0.2}, {8.2, 4.2}), 6, 6.2);
+  b.Storey("Upper", 3);
+  return b;
+}
+
+TEST(FindRooms, TheUpperPartOfAHallIsNoRoomOfItsOwn) {
+  DiagnosticSink sink;
+  const AGraph graph = Build(Hall().plan, sink).graph;
+  ASSERT_EQ(graph.rooms.size(), 3u);
+  EXPECT_EQ(std::count_if(graph.rooms.begin(), graph.rooms.end(), [](const Room& r) { return r.storey == StoreyId(1); }), 1);
+  EXPECT_EQ(CountOf(sink, DiagnosticKind::kVoidOverRoom), 1u);
+}
+
+TEST(FindRooms, AStairwellWithADoorOnTheUpperStoreyIsARoomThere) {
+  test::PlanBuilder b = Hall();
+  b.Door("D", 4, 2, 0.9, 3, 5.1);
+  const AGraph graph = Build(b.plan).graph;
+  EXPECT_EQ(std::count_if(graph.rooms.begin(), graph.rooms.end(), [](const Room& r) { return r.storey == StoreyId(1); }), 2);
+}
+
+TEST(FindRooms, UpperStoreysWithoutSlabsKeepTheirRooms) {
+  PlanIr plan = Hall().plan;
+  std::erase_if(plan.elements, [](const PlanElement& e) { return e.guid == "ceiling"; });
+  EXPECT_EQ(Build(plan).graph.rooms.size(), 4u);
+}
+
 TEST(FindRooms, HeightsComeFromSlabsAndFallBackToStoreys) {
   PlanIr plan = test::TwoRooms();
   plan.storeys.push_back({"", "Upper", {}, 2.7});

@@ -100,7 +100,7 @@ LoggedCase MakeCase(const std::vector<LoggedRoom>& plan_rooms, const std::vector
       s.z_max_m = 0.5;
       c.plan.surfaces.push_back(s);
       c.map.surfaces.push_back(SeenSide(map_room, i));
-      c.matches.push_back({static_cast<uint32_t>(c.map.surfaces.size() - 1), SurfaceId(c.plan.surfaces.size() - 1), RoomId(), 0, 0});
+      c.matches.push_back({static_cast<uint32_t>(c.map.surfaces.size() - 1), SurfaceId(c.plan.surfaces.size() - 1), RoomId(), 0, 0, {}});
     }
     if (plan_id == truth.rooms.front()[0]) {
       c.T_plan_map.translation().head<2>() = Side(plan_room, 0).first - c.map.surfaces.front().start;

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "tests/support/house.h"
+#include "tools/drawing/floor_plan.h"
 #include "tools/report/deviation_overlay.h"
-#include "tools/report/floor_plan_svg.h"
 
 namespace plumb::tools {
 namespace {

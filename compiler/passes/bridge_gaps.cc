@@ -1,0 +1,186 @@
+#include "compiler/passes/bridge_gaps.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <set>
+
+#include "compiler/passes/polygon.h"
+
+namespace plumb::compiler {
+namespace {
+
+// A corner of an outline and the edge that leaves it.
+struct Corner {
+  Eigen::Vector2d at, next;
+  uint32_t footprint, ring;
+};
+
+std::vector<Corner> CornersOf(const Floor& floor) {
+  std::vector<Corner> out;
+  uint32_t ring_number = 0;
+  for (uint32_t f = 0; f < floor.footprints.size(); ++f) {
+    if (!floor.footprints[f].bounds_rooms) continue;
+    for (const Ring& ring : floor.footprints[f].rings) {
+      for (size_t i = 0; i < ring.size(); ++i) out.push_back({ring[i], ring[(i + 1) % ring.size()], f, ring_number});
+      ++ring_number;
+    }
+  }
+  std::stable_sort(out.begin(), out.end(), [](const Corner& a, const Corner& b) { return LexicographicallyLess(a.at, b.at); });
+  return out;
+}
+
+// What covers a point.
+class Cover {
+ public:
+  explicit Cover(const Floor& floor) {
+    for (const Footprint& f : floor.footprints) {
+      if (f.bounds_rooms) entries_.push_back({&f.rings, BoundingBox(f.rings)});
+    }
+  }
+  bool IsFree(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
+    const std::array<double, 3> places = {0.05, 0.5, 0.95};
+    return std::none_of(places.begin(), places.end(), [&](double t) { return Holds(from + t * (to - from)); });
+  }
+
+ private:
+  bool Holds(const Eigen::Vector2d& p) const {
+    return std::any_of(entries_.begin(), entries_.end(),
+                       [&](const Entry& e) { return e.box.contains(p) && WindingNumber(*e.rings, p) != 0; });
+  }
+
+  struct Entry {
+    const std::vector<Ring>* rings;
+    Eigen::AlignedBox2d box;
+  };
+  std::vector<Entry> entries_;
+};
+
+// Free faces as nodes: those wider than the gap are places, the slivers within gaps hang together over bridges.
+class Slivers {
+ public:
+  Slivers(const Floor& floor, double max_gap_m) : floor_(floor), parent_(floor.faces.size()), places_(floor.faces.size()) {
+    std::iota(parent_.begin(), parent_.end(), 0u);
+    for (const FloorFace& face : floor.faces) is_place_.push_back(IsPlace(face, max_gap_m));
+    ForEachBridge([&](uint32_t, uint32_t a, uint32_t b) {
+      if (!is_place_[a] && !is_place_[b]) parent_[Root(std::max(a, b))] = Root(std::min(a, b));
+    });
+    ForEachBridge([&](uint32_t, uint32_t a, uint32_t b) {
+      if (is_place_[b] && !is_place_[a]) places_[Root(a)].insert(b);
+    });
+  }
+
+  // Bridges on the way from one place to another.
+  std::vector<bool> Separating() {
+    std::vector<bool> out(floor_.bridges.size(), false);
+    ForEachBridge([&](uint32_t bridge, uint32_t a, uint32_t b) {
+      const bool both = is_place_[a] && is_place_[b], through = !is_place_[a] && places_[Root(a)].size() > 1;
+      if (both || through) out[bridge] = true;
+    });
+    return out;
+  }
+
+ private:
+  // From both sides of every bridge.
+  template <class Visit>
+  void ForEachBridge(const Visit& visit) const {
+    for (uint32_t i = 0; i < floor_.faces.size(); ++i) {
+      const FloorFace& face = floor_.faces[i];
+      const auto walk = [&](const std::vector<BoundaryEdge>& ring) {
+        for (const BoundaryEdge& e : ring) {
+          if (e.bridge != kNoIndex && face.cover.empty() && floor_.faces[e.face].cover.empty()) visit(e.bridge, i, e.face);
+        }
+      };
+      walk(face.outer);
+      for (const auto& hole : face.holes) walk(hole);
+    }
+  }
+
+  bool IsPlace(const FloorFace& face, double max_gap_m) const {
+    if (!face.bounded()) return true;
+    double perimeter = 0;
+    for (const Ring& ring : FaceRings(floor_, face)) {
+      for (size_t i = 0; i < ring.size(); ++i) perimeter += (ring[(i + 1) % ring.size()] - ring[i]).norm();
+    }
+    return 2 * face.area_m2 > max_gap_m * perimeter;
+  }
+
+  uint32_t Root(uint32_t i) const {
+    while (parent_[i] != i) i = parent_[i];
+    return i;
+  }
+
+  const Floor& floor_;
+  std::vector<uint32_t> parent_;
+  std::vector<std::set<uint32_t>> places_;
+  std::vector<bool> is_place_;
+};
+
+}  // namespace
+
+std::string BridgeOptions::Check() const {
+  if (!(max_gap_m >= 0 && max_gap_m <= 0.5)) return fmt::format("BridgeOptions.max_gap_m = {}; must be in [0, 0.5]", max_gap_m);
+  return {};
+}
+
+std::vector<Bridge> FindBridges(const Floor& floor, double min_gap_m, double max_gap_m) {
+  const std::vector<Corner> corners = CornersOf(floor);
+  const Cover cover(floor);
+  std::map<std::pair<uint32_t, uint32_t>, std::pair<double, Bridge>> nearest;  // by corner and outline
+  for (const Corner& edge : corners) {
+    const auto [lo, hi] = std::minmax(edge.at.x(), edge.next.x());
+    auto it = std::lower_bound(corners.begin(), corners.end(), lo - max_gap_m, [](const Corner& c, double x) { return c.at.x() < x; });
+    for (; it != corners.end() && it->at.x() <= hi + max_gap_m; ++it) {
+      if (it->ring == edge.ring) continue;
+      const Eigen::Vector2d q = NearestOnSegment(it->at, edge.at, edge.next);
+      const double gap = (q - it->at).norm();
+      if (gap > max_gap_m) continue;
+      const auto [known, fresh] = nearest.try_emplace({static_cast<uint32_t>(it - corners.begin()), edge.ring});
+      if (!fresh && known->second.first <= gap) continue;
+      known->second = {gap, {it->at, q, it->footprint, edge.footprint}};
+    }
+  }
+  std::vector<Bridge> out;
+  for (const auto& [key, entry] : nearest) {
+    const Bridge& b = entry.second;
+    if (entry.first > min_gap_m && cover.IsFree(b.from, b.to)) out.push_back(b);
+  }
+  return out;
+}
+
+Expected<void> BridgeGaps(const BridgeOptions& options, const PlanarMapOptions& map_options, Floor& floor) {
+  floor.bridges = FindBridges(floor, map_options.snap_radius_m, options.max_gap_m);
+  if (Expected<void> ok = BuildPlanarMap(floor, map_options); !ok || floor.bridges.empty()) return ok;
+  const std::vector<bool> separating = Slivers(floor, options.max_gap_m).Separating();
+  std::vector<Bridge> kept;
+  for (size_t b = 0; b < separating.size(); ++b) {
+    if (separating[b]) kept.push_back(floor.bridges[b]);
+  }
+  floor.bridges = std::move(kept);
+  return BuildPlanarMap(floor, map_options);
+}
+
+void ReportBridges(const PlanIr& plan, const FloorIr& floors, DiagnosticSink& sink) {
+  constexpr double kSameGap_m = 1.0;  // the corners of a wall's end are closer together
+  for (const Floor& floor : floors.floors) {
+    std::map<std::pair<uint32_t, uint32_t>, std::vector<Eigen::Vector2d>> reported;
+    for (const Bridge& b : floor.bridges) {
+      const Eigen::Vector2d at = 0.5 * (b.from + b.to);
+      auto& known = reported[std::minmax(b.footprint_a, b.footprint_b)];
+      if (std::any_of(known.begin(), known.end(), [&](const auto& p) { return (p - at).norm() < kSameGap_m; })) continue;
+      known.push_back(at);
+      const PlanElement &first = plan.elements[floor.footprints[b.footprint_a].element],
+                        &second = plan.elements[floor.footprints[b.footprint_b].element];
+      sink.Emit(DiagnosticKind::kGapBridged, first.location,
+                fmt::format("{} ends {:.3f} m from {} at ({:.2f}, {:.2f}); nobody passes there, so that they are taken to meet",
+                            first.location.ToString(), (b.to - b.from).norm(), second.location.ToString(), at.x() + plan.origin.x(),
+                            at.y() + plan.origin.y()));
+    }
+  }
+}
+
+}  // namespace plumb::compiler

@@ -1,0 +1,182 @@
+// The program's subcommands for plans, as a user or a script runs them: exit status, formats that agree, files that are whole or not there.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <random>
+
+#include "schema/agraph_writer.h"
+#include "schema/files.h"
+#include "tests/support/house.h"
+#include "tests/support/temporary_folder.h"
+
+namespace plumb {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using Json = nlohmann::json;
+
+struct Outcome {
+  int status = -1;
+  std::string out, err;
+};
+
+class Program : public ::testing::Test {
+ protected:
+  void SetUp() override { ASSERT_TRUE(WriteAGraphFile(test::MakeHouse(), folder_ / "house.agraph")); }
+
+  Outcome Plumb(const std::string& arguments) {
+    const std::string command = "cd '" + folder_.path() + "' && timeout 60 '" PLUMB_PROGRAM "' " + arguments + " > .out 2> .err";
+    const int status = std::system(command.c_str());
+    Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, Read(".out"), Read(".err")};
+    fs::remove(folder_ / ".out");
+    fs::remove(folder_ / ".err");
+    return outcome;
+  }
+  std::string Read(const std::string& name) { return ReadFileText(folder_ / name).value_or("cannot read " + name); }
+  void Write(const std::string& name, std::string_view text) { ASSERT_TRUE(WriteFileAtomically(folder_ / name, text)); }
+  std::vector<std::string> Files() {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder_.path())) names.push_back(entry.path().filename());
+    std::sort(names.begin(), names.end());
+    return names;
+  }
+
+  test::TemporaryFolder folder_;
+  const std::string golden_ = std::string("'" PLUMB_SOURCE_DIR "/tests/compile/golden/diagnostics/");
+};
+
+TEST_F(Program, ValidateSaysTheSameInEveryFormat) {
+  for (const auto& [input, expected] : {std::pair(std::string("house.agraph"), 0),
+                                        {golden_ + "PL7103.ifc'", 0},
+                                        {golden_ + "PL7120.ifc'", 1},
+                                        {golden_ + "PL2002.ifc'", 2},
+                                        {golden_ + "PL8002.agraph'", 2},
+                                        {std::string("missing.ifc"), 2}}) {
+    const Outcome text = Plumb("validate " + input), json = Plumb("validate --format json " + input),
+                  sarif = Plumb("validate --format sarif " + input);
+    EXPECT_EQ(text.status, expected) << input << text.out << text.err;
+    EXPECT_EQ(json.status, expected) << input;
+    EXPECT_EQ(sarif.status, expected) << input;
+    const Json report = Json::parse(json.out), run = Json::parse(sarif.out)["runs"][0];
+    EXPECT_EQ(report["exit_status"], expected);
+    EXPECT_EQ(run["invocations"][0]["exitCode"], expected);
+    EXPECT_THAT(text.out, HasSubstr(report["answer"].get<std::string>()));
+    ASSERT_EQ(report["diagnostics"].size(), run["results"].size());
+    for (size_t i = 0; i < report["diagnostics"].size(); ++i) {
+      EXPECT_EQ(report["diagnostics"][i]["code"], run["results"][i]["ruleId"]);
+      EXPECT_THAT(text.out, HasSubstr("[" + report["diagnostics"][i]["code"].get<std::string>() + "]"));
+    }
+  }
+}
+
+TEST_F(Program, StrictMakesFindingsOfWarnings) {
+  EXPECT_EQ(Plumb("validate --strict " + golden_ + "PL7103.ifc'").status, 1);
+  EXPECT_EQ(Plumb("validate --strict house.agraph").status, 0);
+}
+
+TEST_F(Program, ExplainKnowsEveryCodeItLists) {
+  const Outcome list = Plumb("explain");
+  EXPECT_EQ(list.status, 0);
+  EXPECT_THAT(list.out, HasSubstr("PL2301 warning  WallWithoutBody"));
+  EXPECT_THAT(Plumb("explain PL2301").out, HasSubstr("\nwhy "));
+  const Outcome unknown = Plumb("explain WallWithoutBodi");
+  EXPECT_EQ(unknown.status, 2);
+  EXPECT_THAT(unknown.err, HasSubstr("did you mean `WallWithoutBody`?"));
+}
+
+TEST_F(Program, InspectWritesEveryForm) {
+  const Outcome written = Plumb(
+      "inspect house.agraph --svg house.svg --graphml house.graphml --nav2 map --storey 'ground floor' --height_m 0.5 --resolution_m 0.1");
+  EXPECT_EQ(written.status, 0) << written.err;
+  EXPECT_THAT(Read("house.svg"), HasSubstr("</svg>"));
+  EXPECT_THAT(Read("house.graphml"), HasSubstr("</graphml>"));
+  EXPECT_THAT(Read("map/map.yaml"), HasSubstr("image: map.pgm\nmode: trinary\nresolution: 0.1\n"));
+  EXPECT_THAT(Read("map/map.pgm"), ::testing::StartsWith("P5\n"));
+  EXPECT_THAT(Files(), ::testing::ElementsAre("house.agraph", "house.graphml", "house.svg", "map"));  // nothing left over
+  EXPECT_EQ(Json::parse(Plumb("inspect house.agraph --json").out)["rooms"].size(), 3u);
+  EXPECT_THAT(Plumb("inspect house.agraph").out, HasSubstr("A - outside, 0.90 m wide"));
+  const Outcome no_storey = Plumb("inspect house.agraph --svg other.svg --storey attic");
+  EXPECT_EQ(no_storey.status, 2);
+  EXPECT_THAT(no_storey.err, HasSubstr("0 `Ground floor`"));
+  EXPECT_FALSE(fs::exists(folder_ / "other.svg"));
+  EXPECT_EQ(Plumb("inspect house.agraph --nav2 map --resolution_m 0").status, 2);
+}
+
+TEST_F(Program, FlippedBitsAreRefused) {
+  const auto bytes = ReadFileBytes(folder_ / "house.agraph");
+  ASSERT_TRUE(bytes);
+  std::mt19937 random(11);
+  for (int round = 0; round < 24; ++round) {
+    std::vector<uint8_t> damaged = *bytes;
+    // The head, where the format is told, as often as the rest.
+    const size_t at = round % 2 == 0 ? random() % 64 : random() % damaged.size();
+    damaged[at] ^= static_cast<uint8_t>(1u << (random() % 8));
+    ASSERT_TRUE(WriteFileAtomically(folder_ / "damaged.agraph", damaged));
+    const Outcome inspect = Plumb("inspect damaged.agraph --svg out.svg");
+    EXPECT_EQ(inspect.status, 2) << "byte " << at;
+    EXPECT_THAT(inspect.err, HasSubstr("damaged.agraph`: "));
+    EXPECT_EQ(Plumb("validate damaged.agraph").status, 2) << "byte " << at;
+  }
+  EXPECT_FALSE(fs::exists(folder_ / "out.svg"));
+}
+
+TEST_F(Program, ConfigFilesHaveTheNamesOfTheFlags) {
+  Write("plumb.toml", "[inspect]\nstorey = \"0\"\nresolution_m = 0.2\n[validate]\nstrict = true\n");
+  EXPECT_EQ(Plumb("inspect house.agraph --nav2 map --config plumb.toml").status, 0);
+  EXPECT_THAT(Read("map/map.yaml"), HasSubstr("resolution: 0.2\n"));
+  EXPECT_EQ(Plumb("validate --config plumb.toml " + golden_ + "PL7103.ifc'").status, 1);
+  Write("wrong.toml", "[inspect]\nresolution = 0.2\n");
+  const Outcome wrong = Plumb("inspect house.agraph --config wrong.toml");
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("`wrong.toml:2`"));
+  EXPECT_THAT(wrong.err, HasSubstr("did you mean `resolution_m`?"));
+  EXPECT_EQ(Plumb("inspect house.agraph --config none.toml").status, 2);
+}
+
+TEST_F(Program, PrintedConfigNeedsNoInputAndReadsBack) {
+  for (const char* subcommand : {"compile", "validate", "inspect", "explain"}) {
+    const Outcome printed = Plumb(std::string(subcommand) + " --print-config");
+    EXPECT_EQ(printed.status, 0) << printed.err;
+    EXPECT_THAT(printed.out, ::testing::StartsWith("[" + std::string(subcommand) + "]\n"));
+  }
+  Write("full.toml", Plumb("inspect --print-config --resolution_m 0.25").out);
+  EXPECT_EQ(Plumb("inspect house.agraph --nav2 map --config full.toml").status, 0);
+  EXPECT_THAT(Read("map/map.yaml"), HasSubstr("resolution: 0.25\n"));
+}
+
+TEST_F(Program, QuietLeavesResultsAndErrors) {
+  EXPECT_EQ(Plumb("inspect house.agraph --svg a.svg --quiet").err, "");
+  EXPECT_NE(Plumb("inspect house.agraph --quiet").out, "");
+  EXPECT_THAT(Plumb("inspect missing.agraph --quiet").err, HasSubstr("missing.agraph"));
+  EXPECT_EQ(Plumb("compile " + golden_ + "PL7103.ifc' -o a.agraph -q").err, "");
+  EXPECT_THAT(Plumb("compile " + golden_ + "PL7103.ifc' -o a.agraph").err, ::testing::Not(HasSubstr("\r")));  // no progress bar in a file
+}
+
+TEST_F(Program, HelpHasExamplesAndUsageErrorsAreBadInput) {
+  for (const char* subcommand : {"compile", "validate", "inspect", "explain"}) {
+    const Outcome help = Plumb(std::string(subcommand) + " --help");
+    EXPECT_EQ(help.status, 0);
+    EXPECT_THAT(help.out, HasSubstr("Examples:\n  plumb " + std::string(subcommand)));
+  }
+  EXPECT_EQ(Plumb("validate").status, 2);
+  EXPECT_EQ(Plumb("validate house.agraph --format xml").status, 2);
+  EXPECT_THAT(Plumb("inspct house.agraph").err, HasSubstr("did you mean `inspect`?"));
+}
+
+TEST_F(Program, CompileLeavesNothingHalfWritten) {
+  EXPECT_EQ(Plumb("compile " + golden_ + "PL2002.ifc' -o bad.agraph").status, 2);
+  EXPECT_EQ(Plumb("compile " + golden_ + "PL7103.ifc' -o no/such/folder.agraph").status, 2);
+  EXPECT_THAT(Files(), ::testing::ElementsAre("house.agraph"));
+  EXPECT_EQ(Plumb("compile " + golden_ + "PL7103.ifc' -o house.agraph --diagnostics-json d.json").status, 0);
+  EXPECT_EQ(Json::parse(Read("d.json"))["exit_status"], 0);
+  EXPECT_THAT(Files(), ::testing::ElementsAre("d.json", "house.agraph"));
+}
+
+}  // namespace
+}  // namespace plumb

@@ -1,0 +1,150 @@
+#include "tools/drawing/room_labels.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <vector>
+
+namespace plumb::tools {
+namespace {
+
+using Eigen::Vector2d;
+
+// Units of the sheet: 0.1 mm.
+constexpr double kSmallest = 13, kLargest = 26;
+constexpr double kLine = 1.15;  // step of a line, of the font's size
+
+double DistanceToSegment(const Vector2d& p, const Vector2d& a, const Vector2d& b) {
+  const Vector2d ab = b - a;
+  const double t = ab.squaredNorm() > 0 ? std::clamp((p - a).dot(ab) / ab.squaredNorm(), 0.0, 1.0) : 0.0;
+  return (p - a - t * ab).norm();
+}
+
+template <class Visit>
+void VisitEdges(const Room& room, Visit visit) {
+  const auto walk = [&visit](const Ring& ring) {
+    for (size_t i = 0; i < ring.size(); ++i) visit(ring[i], ring[(i + 1) % ring.size()]);
+  };
+  walk(room.polygon);
+  for (const Ring& hole : room.holes) walk(hole);
+}
+
+// Distance to the boundary, negative outside.
+double Clearance(const Room& room, const Vector2d& p) {
+  double nearest = std::numeric_limits<double>::max();
+  bool inside = false;
+  VisitEdges(room, [&](const Vector2d& a, const Vector2d& b) {
+    nearest = std::min(nearest, DistanceToSegment(p, a, b));
+    if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) inside = !inside;
+  });
+  return inside ? nearest : -nearest;
+}
+
+// Where a label has most room: the centroid if it lies well inside, else the best point of a grid.
+Vector2d LabelPoint(const Room& room) {
+  Vector2d lo = room.polygon.front(), hi = lo;
+  for (const Vector2d& p : room.polygon) lo = lo.cwiseMin(p), hi = hi.cwiseMax(p);
+  Vector2d best = room.center.head<2>();
+  double best_clearance = 1.25 * Clearance(room, best);
+  constexpr int kSteps = 24;
+  for (int i = 1; i < kSteps; ++i) {
+    for (int k = 1; k < kSteps; ++k) {
+      const Vector2d p = lo + Vector2d(i, k).cwiseProduct(hi - lo) / kSteps;
+      const double clearance = Clearance(room, p);
+      if (clearance <= best_clearance) continue;
+      best_clearance = clearance;
+      best = p;
+    }
+  }
+  return best;
+}
+
+// How far a line through `p` goes along +-`direction` before it meets the boundary, the shorter of both ways.
+double HalfSpan(const Room& room, const Vector2d& p, const Vector2d& direction) {
+  const Vector2d across(-direction.y(), direction.x());
+  double span_m = std::numeric_limits<double>::max();
+  VisitEdges(room, [&](const Vector2d& a, const Vector2d& b) {
+    const double side_a = across.dot(a - p), side_b = across.dot(b - p);
+    if ((side_a > 0) == (side_b > 0)) return;
+    const Vector2d at = a + side_a / (side_a - side_b) * (b - a);
+    span_m = std::min(span_m, std::abs(direction.dot(at - p)));
+  });
+  return span_m;
+}
+
+// In two lines of about the same length; in one where there is no space to break at.
+std::vector<std::string> Broken(const std::string& name) {
+  size_t best = std::string::npos;
+  const auto off_middle = [&name](size_t at) { return at > name.size() / 2 ? at - name.size() / 2 : name.size() / 2 - at; };
+  for (size_t at = name.find(' '); at != std::string::npos; at = name.find(' ', at + 1)) {
+    if (best == std::string::npos || off_middle(at) < off_middle(best)) best = at;
+  }
+  if (best == std::string::npos) return {name};
+  return {name.substr(0, best), name.substr(best + 1)};
+}
+
+struct Label {
+  std::vector<std::string> lines;  // the area is the last one
+  bool upright = false;
+  double size = 0;  // of the font
+};
+
+Label Fit(const Room& room, const Vector2d& at, std::vector<std::string> lines, bool upright, const Sheet& sheet) {
+  const Vector2d along = upright ? Vector2d::UnitY() : Vector2d::UnitX(), across(-along.y(), along.x());
+  lines.push_back(fmt::format("{:.2f} m²", room.area_m2));
+  double width = 1;
+  for (const std::string& line : lines) width = std::max(width, TextWidth(line, true));
+  const double rows = kLine * static_cast<double>(lines.size());
+  double size = std::min(kLargest, 2 * sheet.Length(HalfSpan(room, at, across)) / rows);
+  // The block of lines must fit at its upper and lower edge, too.
+  for (const double edge : {-0.5, 0.0, 0.5}) {
+    const Vector2d p = at + edge * rows * size / sheet.Length(1) * across;
+    size = std::min(size, 0.94 * 2 * sheet.Length(HalfSpan(room, p, along)) / width);
+  }
+  return {std::move(lines), upright, size};
+}
+
+// Upright or broken lines must be worth it.
+Label BestLabel(const Room& room, const Vector2d& at, const Sheet& sheet) {
+  Label best = Fit(room, at, {room.name}, false, sheet);
+  for (const bool upright : {false, true}) {
+    for (auto& lines : {Broken(room.name), std::vector<std::string>{room.name}}) {
+      Label other = Fit(room, at, lines, upright, sheet);
+      if (best.size < 0.75 * kLargest && other.size > 1.25 * best.size) best = std::move(other);
+    }
+  }
+  // A name that the source gives is written even where it reaches into the walls.
+  if (best.size < kSmallest) best.size = room.guid.empty() ? 0 : kSmallest;
+  return best;
+}
+
+std::string Draw(const Label& label, double x, double y) {
+  std::string out = label.upright ? fmt::format("<g transform=\"rotate(-90 {} {})\">", Decimal(x), Decimal(y)) : "<g>";
+  const double step = kLine * label.size;
+  double baseline = y - 0.5 * step * static_cast<double>(label.lines.size()) + 0.8 * label.size;
+  for (size_t i = 0; i < label.lines.size(); ++i, baseline += step) {
+    const bool is_area = i + 1 == label.lines.size();
+    fmt::format_to(std::back_inserter(out), "<text class=\"{}\" x=\"{}\" y=\"{}\" font-size=\"{}\">{}</text>",
+                   is_area ? "room-area" : "room-name", Decimal(x), Decimal(baseline), Decimal(is_area ? 0.88 * label.size : label.size),
+                   EscapeXml(label.lines[i]));
+  }
+  return out + "</g>\n";
+}
+
+}  // namespace
+
+std::string DrawRoomLabels(const AGraph& graph, StoreyId storey, const Sheet& sheet) {
+  std::string out;
+  for (const Room& room : graph.rooms) {
+    if (room.storey != storey || room.polygon.empty()) continue;
+    const Vector2d at = LabelPoint(room);
+    const Label label = BestLabel(room, at, sheet);
+    if (label.size > 0) out += Draw(label, sheet.x(at.x()), sheet.y(at.y()));
+  }
+  return out;
+}
+
+}  // namespace plumb::tools

@@ -11,7 +11,7 @@ namespace plumb::compiler::attribute {
 inline constexpr size_t kGlobalId = 0, kName = 2, kPlacement = 5, kRepresentation = 6;
 inline constexpr size_t kSpatialLongName = 7, kStoreyElevation = 9;
 inline constexpr size_t kOverallHeight = 8, kOverallWidth = 9;  // IfcDoor, IfcWindow
-inline constexpr size_t kSlabType = 8;
+inline constexpr size_t kSlabType = 8, kObjectType = 4;
 inline constexpr size_t kProjectUnits = 8;
 inline constexpr size_t kContextTrueNorth = 5;
 
@@ -35,6 +35,9 @@ inline constexpr size_t kSurfaceStyleName = 0, kSurfaceStyleStyles = 2, kShading
 // Units.
 inline constexpr size_t kAssignedUnits = 0, kUnitType = 1, kSiPrefix = 2, kConversionFactor = 3;
 inline constexpr size_t kMeasureValue = 0, kMeasureUnit = 1;
+
+// Georeference.
+inline constexpr size_t kMapEastings = 2, kMapNorthings = 3;
 
 // Placements and transformations.
 inline constexpr size_t kCoordinates = 0, kDirectionRatios = 0, kVectorOrientation = 0, kVectorMagnitude = 1;

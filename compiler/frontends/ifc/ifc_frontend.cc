@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <utility>
 
+#include "compiler/frontends/ifc/ifc_georeference.h"
 #include "compiler/frontends/ifc/ifc_model.h"
 #include "compiler/frontends/ifc/ifc_opening_table.h"
 #include "compiler/frontends/ifc/ifc_origin.h"
@@ -14,6 +16,7 @@
 #include "compiler/frontends/ifc/ifc_relations.h"
 #include "compiler/frontends/ifc/ifc_shape.h"
 #include "compiler/frontends/ifc/ifc_units.h"
+#include "compiler/frontends/ifc/ifc_wall_proxies.h"
 
 namespace plumb::compiler {
 namespace {
@@ -22,8 +25,6 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr uint32_t kNone = StepFile::kNone;
-
-bool HasUncut(ElementKind kind) { return IsWallLike(kind) || kind == ElementKind::kColumn; }
 
 // Arcs of an extruded profile in the plan frame, if it stands upright; exact only then.
 void AppendArcs(const ShapePart& part, std::vector<Arc>& out) {
@@ -63,6 +64,7 @@ class Frontend {
       model_.Emit(DiagnosticKind::kFarOrigin, kNone,
                   fmt::format("the plan lies around ({}, {}, {}) m; it is moved near zero inside and written where it was",
                               plan_.origin.x(), plan_.origin.y(), plan_.origin.z()));
+      CheckGeoreference(model_, plan_.origin);
     }
     return std::move(plan_);
   }
@@ -157,11 +159,12 @@ class Frontend {
         continue;
       }
       PlanElement element = BaseElement(product);
+      CheckGuid(product, element.guid);
       if (IsWallLike(product.kind)) {
         DescribeWall(product, element);
         CheckWall(product);
       }
-      if (HasUncut(product.kind)) {
+      if (HasUncut(p)) {
         for (const ShapePart& part : product.parts) AppendSolid(part.solid, element.uncut);
         for (const uint32_t filling : product.fillings) {
           for (const ShapePart& part : products_[filling].parts) AppendSolid(part.solid, element.uncut);
@@ -172,6 +175,27 @@ class Frontend {
       if (IsWallLike(product.kind) && element.arcs.empty()) openings_.RestoreUncut(p, element.uncut);
       AddElements(p, std::move(element), parts);
     }
+  }
+
+  bool HasUncut(uint32_t p) const {
+    const ElementKind kind = products_[p].kind;
+    return IsWallLike(kind) || kind == ElementKind::kColumn || (kind == ElementKind::kProxy && ActsAsWall(p));
+  }
+
+  bool ActsAsWall(uint32_t p) const {
+    const Product& product = products_[p];
+    if (!IsWallShaped(product.parts)) return false;
+    const bool is_named = IsWallName(TextOf(product.instance, attribute::kName)) || IsWallName(TextOf(product.instance, attribute::kObjectType));
+    if (!is_named && !openings_.HasOpenings(p)) return false;
+    model_.Emit(DiagnosticKind::kProxyAsWall, product.instance,
+                fmt::format("{} is taken for a wall by its shape and its {}", model_.Label(product.instance), is_named ? "name" : "openings"));
+    return true;
+  }
+
+  void CheckGuid(const Product& product, const std::string& guid) {
+    if (guid.empty() || guids_.insert(guid).second) return;
+    model_.Emit(DiagnosticKind::kDuplicateGlobalId, product.instance,
+                fmt::format("the GlobalId of {} is that of an earlier element, too", model_.Label(product.instance)));
   }
 
   void ReportNoBody(const Product& product) const {
@@ -278,6 +302,7 @@ class Frontend {
   ProductTable products_;
   OpeningTable openings_;
   PlanIr plan_;
+  std::set<std::string> guids_;
   std::vector<uint32_t> storey_of_;   // position in the plan, by instance
   std::vector<uint32_t> element_of_;  // by product
 };

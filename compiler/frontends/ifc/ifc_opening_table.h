@@ -24,6 +24,8 @@ class OpeningTable {
 
   [[nodiscard]] const std::vector<Opening>& all() const { return openings_; }  // in the order of the file
 
+  [[nodiscard]] bool HasOpenings(uint32_t product) const { return !of_product_[product].empty(); }
+
   // Cuts out of a product's parts its own openings and, for parts that stay elements of their own, those of the wholes above them.
   void Cut(uint32_t product, ShapeParts& parts);
   // Some programs write bodies that are cut already: adds to the uncut body of a straight wall what such openings took. After Cut.

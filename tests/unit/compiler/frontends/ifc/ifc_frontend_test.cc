@@ -323,5 +323,55 @@ TEST(ReadIfc, SurvivesBentReferencesAndDamage) {
   }
 }
 
+TEST(IfcFrontend, ProxiesThatActAsWallsGetAnUncutBody) {
+  const auto scene = [](const std::string& proxy, const std::string& more = {}) {
+    std::string text = kScene;
+    const size_t at = text.find("IFCWALLSTANDARDCASE('wall000000000000000001',$,'W\\X\\FC',$,$,#21,#22,$)");
+    EXPECT_NE(at, std::string::npos);
+    text.replace(at, text.find(';', at) - at, proxy);
+    return Read(test::IfcText(text + more));
+  };
+  const std::string by_openings = "IFCBUILDINGELEMENTPROXY('wall000000000000000001',$,'Generic Models 7',$,$,#21,#22,$,$)";
+  const Result voided = scene(by_openings);
+  ASSERT_TRUE(voided.plan);
+  EXPECT_EQ(voided.plan->elements.at(0).kind, ElementKind::kProxy);
+  EXPECT_NEAR(Volume(voided.plan->elements[0].uncut), 5 * 0.3 * 2.5, 1e-9);
+  EXPECT_TRUE(voided.Has(DiagnosticKind::kProxyAsWall));
+
+  const std::string loose = R"(
+#80=IFCBUILDINGELEMENTPROXY('proxy00000000000000001',$,'%',$,$,#21,#82,$,$);
+#82=IFCPRODUCTDEFINITIONSHAPE($,$,(#24));
+)";
+  const auto with_name = [&](const std::string& name) {
+    std::string text = loose;
+    text.replace(text.find('%'), 1, name);
+    const Result result = Read(test::IfcText(kScene + text));
+    return result.plan && !result.plan->elements.back().uncut.empty();
+  };
+  EXPECT_TRUE(with_name("Glass Wall:12"));
+  EXPECT_TRUE(with_name("Wand-003"));
+  EXPECT_FALSE(with_name("Wallpaper"));
+  EXPECT_FALSE(with_name("Billboard"));
+}
+
+TEST(IfcFrontend, AGlobalIdUsedTwiceIsSaidAndBothAreKept) {
+  const Result result = Read(test::IfcText(std::string(kScene) + "#80=IFCWALL('wall000000000000000001',$,'w',$,$,#21,#82,$,$);\n"
+                                                                 "#82=IFCPRODUCTDEFINITIONSHAPE($,$,(#24));\n"));
+  ASSERT_TRUE(result.plan);
+  EXPECT_TRUE(result.Has(DiagnosticKind::kDuplicateGlobalId));
+  EXPECT_EQ(std::count_if(result.plan->elements.begin(), result.plan->elements.end(), [](const PlanElement& e) { return e.kind == ElementKind::kWall; }), 2);
+}
+
+TEST(IfcFrontend, AMapConversionToWhereThePlanStandsIsSaid) {
+  const auto read = [](const std::string& eastings) {
+    std::string text = kScene;
+    const std::string corner = "#13=IFCCARTESIANPOINT((10.,20.,3.));";
+    text.replace(text.find(corner), corner.size(), "#13=IFCCARTESIANPOINT((455000.,5430000.,3.));");
+    return Read(test::IfcText(text + "#80=IFCMAPCONVERSION(#81,#82," + eastings + ",5430010.,110.,1.,0.,1.);\n"));
+  };
+  EXPECT_TRUE(read("455020.").Has(DiagnosticKind::kGeoreferencedTwice));
+  EXPECT_FALSE(read("4550200.").Has(DiagnosticKind::kGeoreferencedTwice));
+}
+
 }  // namespace
 }  // namespace plumb::compiler

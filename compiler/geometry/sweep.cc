@@ -158,7 +158,8 @@ Solid SweepDisk(const std::vector<Vector3d>& path, double radius_m, int sides) {
       const double slope = std::max(0.2, in.dot(normal));  // sharp bends are cut short
       solid.vertices.push_back(points[static_cast<size_t>(i)] + spoke - in * (spoke.dot(normal) / slope));
     }
-    u = Eigen::Quaterniond::FromTwoVectors(in, out) * u;
+    const Vector3d axis = in.cross(out);
+    if (const double sine = axis.norm(); sine > 1e-12) u = Eigen::AngleAxisd(std::atan2(sine, in.dot(out)), axis / sine) * u;
   }
   const int rings = closed ? n : n - 1;
   for (int i = 0; i < rings; ++i) {

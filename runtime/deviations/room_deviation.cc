@@ -1,9 +1,10 @@
 #include "runtime/deviations/room_deviation.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <Eigen/LU>
 #include <cmath>
+
+#include "runtime/numerics/symmetric_eigen.h"
 
 namespace plumb::runtime {
 namespace {
@@ -47,7 +48,7 @@ RoomDeviation DeviationOfRoom(const AGraph& plan, RoomId id, const std::vector<S
     support += surface.length_m() * n * n.transpose();
     walls.push_back(wall);
   }
-  if (Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(support).eigenvalues()[0] < kMinSupport_m) return out;
+  if (EigenOf(support).values[0] < kMinSupport_m) return out;
 
   const Eigen::Matrix3d inverse = lhs.inverse();
   const Eigen::Vector3d motion = inverse * rhs;

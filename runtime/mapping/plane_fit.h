@@ -1,11 +1,11 @@
 // Total least squares planes from their points' statistics.
 #pragma once
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "runtime/mapping/sgraph.h"
+#include "runtime/numerics/symmetric_eigen.h"
 
 namespace plumb::runtime {
 
@@ -20,11 +20,11 @@ struct PlaneFit {
   PlaneFit fit;
   fit.centroid = stats.centroid();
   const Eigen::Matrix3d covariance = stats.C.topLeftCorner<3, 3>() / stats.count() - fit.centroid * fit.centroid.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(covariance);
-  fit.plane.n = eigen.eigenvectors().col(0);
+  const SymmetricEigen<3> eigen = EigenOf(covariance);
+  fit.plane.n = eigen.vectors.col(0);
   if (fit.plane.n.dot(towards) < 0) fit.plane.n = -fit.plane.n;
   fit.plane.d = -fit.plane.n.dot(fit.centroid);
-  fit.rms_m = std::sqrt(std::max(0.0, eigen.eigenvalues()[0]));
+  fit.rms_m = std::sqrt(std::max(0.0, eigen.values[0]));
   return fit;
 }
 

@@ -1,6 +1,5 @@
 #include "runtime/mapping/segmentation.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -8,6 +7,7 @@
 #include <optional>
 
 #include "runtime/mapping/cell_planes.h"
+#include "runtime/numerics/symmetric_eigen.h"
 #include "runtime/odometry/voxel_index.h"
 
 namespace plumb::runtime {
@@ -32,12 +32,12 @@ struct Region {
 
   void Fit() {
     plane.fitted_count = plane.count;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(plane.scatter / plane.count);
-    const Eigen::Vector3d n = eigen.eigenvectors().col(0);
+    const SymmetricEigen<3> eigen = EigenOf(Eigen::Matrix3d(plane.scatter / plane.count));
+    const Eigen::Vector3d n = eigen.vectors.col(0);
     plane.normal = n.dot(plane.normal) < 0 ? Eigen::Vector3d(-n) : n;
-    plane.minor = eigen.eigenvectors().col(1);
-    plane.major = eigen.eigenvectors().col(2);
-    const Eigen::Vector3d variances = eigen.eigenvalues().cwiseMax(1e-12);
+    plane.minor = eigen.vectors.col(1);
+    plane.major = eigen.vectors.col(2);
+    const Eigen::Vector3d variances = eigen.values.cwiseMax(1e-12);
     plane.var_normal_m2 = variances[0];
     plane.var_minor_m2 = variances[1];
     plane.var_major_m2 = variances[2];

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "runtime/numerics/symmetric_eigen.h"
+
 namespace plumb::runtime {
 namespace {
 
@@ -15,8 +17,8 @@ constexpr double kUnknownSigma = 1e3;
 // A direction that no wall fixes has no finite sigma; a weak prior keeps the inverse defined and says "unknown".
 void SetSigmas(const Eigen::Matrix3d& information, Hypothesis& hypothesis) {
   const Eigen::Matrix3d covariance = (information + 1 / (kUnknownSigma * kUnknownSigma) * Eigen::Matrix3d::Identity()).inverse();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> xy(covariance.topLeftCorner<2, 2>());
-  hypothesis.sigma_xy_m = std::sqrt(std::max(xy.eigenvalues()[1], 0.0));
+  const SymmetricEigen<2> xy = EigenOf(Eigen::Matrix2d(covariance.topLeftCorner<2, 2>()));
+  hypothesis.sigma_xy_m = std::sqrt(std::max(xy.values[1], 0.0));
   hypothesis.sigma_yaw_rad = std::sqrt(std::max(covariance(2, 2), 0.0));
 }
 

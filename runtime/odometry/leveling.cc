@@ -1,9 +1,11 @@
 #include "runtime/odometry/leveling.h"
 
-#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <cmath>
 #include <vector>
+
+#include "runtime/numerics/symmetric_eigen.h"
+#include "runtime/odometry/se3.h"
 
 namespace plumb::runtime {
 namespace {
@@ -59,9 +61,9 @@ std::optional<Eigen::Vector3d> FindUp(const SurfelMap& map, double max_tilt_rad)
       const double variance = noise_m2 / up.dot(s->scatter * up) + kWallSigma_rad * kWallSigma_rad;
       cost += s->normal * s->normal.transpose() / (variance + (round > 0 ? tilt_rad * tilt_rad : 0));  // Cauchy
     }
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(cost);
-    if (eigen.eigenvalues()[1] < 1 / (kMaxSigma_rad * kMaxSigma_rad)) return std::nullopt;
-    up = eigen.eigenvectors().col(0);
+    const SymmetricEigen<3> eigen = EigenOf(cost);
+    if (eigen.values[1] < 1 / (kMaxSigma_rad * kMaxSigma_rad)) return std::nullopt;
+    up = eigen.vectors.col(0);
     if (up.z() < 0) up = -up;
   }
   if (up.z() < std::cos(max_tilt_rad)) return std::nullopt;
@@ -69,7 +71,7 @@ std::optional<Eigen::Vector3d> FindUp(const SurfelMap& map, double max_tilt_rad)
 }
 
 Eigen::Matrix3d LevelingRotation(const Eigen::Vector3d& up) {
-  const Eigen::Matrix3d R = Eigen::Quaterniond::FromTwoVectors(up, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  const Eigen::Matrix3d R = LeastRotation(up, Eigen::Vector3d::UnitZ());
   const double yaw_rad = std::atan2(R(1, 0), R(0, 0));
   return Eigen::AngleAxisd(-yaw_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix() * R;
 }

@@ -1,9 +1,10 @@
 #include "runtime/odometry/registration.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "runtime/numerics/symmetric_eigen.h"
 
 namespace plumb::runtime {
 namespace {
@@ -66,12 +67,12 @@ Matrix6d HeldDirections(const NormalEquations& sum, double degenerate_ratio) {
   const double radius_m = std::max(0.1, std::sqrt(sum.weighted_radius2_m2 / sum.weight));
   Vector6d scale;
   scale << Eigen::Vector3d::Constant(1 / radius_m), Eigen::Vector3d::Ones();
-  const Eigen::SelfAdjointEigenSolver<Matrix6d> eigen(scale.asDiagonal() * sum.A[0] * scale.asDiagonal());
+  const SymmetricEigen<6> eigen = EigenOf(Matrix6d(scale.asDiagonal() * sum.A[0] * scale.asDiagonal()));
   const double least = std::max(degenerate_ratio * sum.weight, kNormalNoiseMargin * sum.weighted_normal_variance);
   Matrix6d P = Matrix6d::Zero();
   for (int i = 0; i < 6; ++i) {
-    const Vector6d v = eigen.eigenvectors().col(i);
-    if (eigen.eigenvalues()[i] >= least) P += v * v.transpose();
+    const Vector6d v = eigen.vectors.col(i);
+    if (eigen.values[i] >= least) P += v * v.transpose();
   }
   // Increments x are scale * y with y in the eigenvectors' coordinates.
   return scale.asDiagonal() * P * scale.cwiseInverse().asDiagonal();

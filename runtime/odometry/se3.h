@@ -19,6 +19,14 @@ namespace plumb::runtime {
   return a.angle() * a.axis();
 }
 
+// The least rotation that turns one unit vector into another, which must not be its opposite.
+[[nodiscard]] inline Eigen::Matrix3d LeastRotation(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  const Eigen::Vector3d v = from.cross(to);
+  Eigen::Matrix3d V;
+  V << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return Eigen::Matrix3d::Identity() + V + V * V / (1 + from.dot(to));
+}
+
 // Linear in translation, constant angular rate in rotation; s outside [0, 1] extrapolates.
 [[nodiscard]] inline Eigen::Isometry3d Interpolate(const Eigen::Isometry3d& T_0, const Eigen::Isometry3d& T_1, double s) {
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();

@@ -1,8 +1,9 @@
 #include "runtime/odometry/surfel_map.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <numeric>
+
+#include "runtime/numerics/symmetric_eigen.h"
 
 namespace plumb::runtime {
 namespace {
@@ -103,9 +104,8 @@ void SurfelMap::Insert(const Eigen::Vector3d& p, const Eigen::Vector3d& sensor) 
 void SurfelMap::FitPlane(uint32_t index) {
   Surfel& s = surfels_[index];
   s.fitted_count = s.count;
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen;
-  eigen.computeDirect(s.scatter / s.count);
-  const Eigen::Vector3d variances = eigen.eigenvalues().cwiseMax(1e-12);
+  const SymmetricEigen<3> eigen = RoughEigenOf(s.scatter / s.count);
+  const Eigen::Vector3d variances = eigen.values.cwiseMax(1e-12);
   const double noise_m2 = std::max(variances[0], options_.range_sigma_m * options_.range_sigma_m);
   const bool is_plane = std::sqrt(variances[0]) <= options_.max_rms_m && variances[1] >= options_.min_minor_m * options_.min_minor_m &&
                         noise_m2 <= options_.max_normal_sigma_rad * options_.max_normal_sigma_rad * s.count * variances[1];
@@ -121,10 +121,10 @@ void SurfelMap::FitPlane(uint32_t index) {
   const bool was_planar = s.planar;
   const Eigen::Vector3d towards = was_planar ? s.normal : s.view_sum;
   s.planar = true;
-  s.normal = eigen.eigenvectors().col(0);
+  s.normal = eigen.vectors.col(0);
   if (s.normal.dot(towards) < 0) s.normal = -s.normal;
-  s.minor = eigen.eigenvectors().col(1);
-  s.major = eigen.eigenvectors().col(2);
+  s.minor = eigen.vectors.col(1);
+  s.major = eigen.vectors.col(2);
   s.var_normal_m2 = variances[0];
   s.var_minor_m2 = variances[1];
   s.var_major_m2 = variances[2];

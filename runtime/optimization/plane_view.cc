@@ -1,8 +1,9 @@
 #include "runtime/optimization/plane_view.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "runtime/numerics/symmetric_eigen.h"
 
 namespace plumb::runtime {
 
@@ -13,13 +14,13 @@ PlaneMoments ComputeMoments(const PlaneStats& stats) {
   m.center = stats.centroid();
   const Eigen::Matrix3d scatter = stats.C.topLeftCorner<3, 3>() / m.count - m.center * m.center.transpose();
   // Semidefinite up to rounding: the solver takes it as it is, negative zeros are cut.
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> eigen(scatter);
-  m.normal = eigen.eigenvectors().col(0);
-  m.v = eigen.eigenvectors().col(1);
-  m.u = eigen.eigenvectors().col(2);
-  m.var_normal = std::max(0.0, eigen.eigenvalues()[0]);
-  m.var_v = std::max(0.0, eigen.eigenvalues()[1]);
-  m.var_u = std::max(0.0, eigen.eigenvalues()[2]);
+  const SymmetricEigen<3> eigen = EigenOf(scatter);
+  m.normal = eigen.vectors.col(0);
+  m.v = eigen.vectors.col(1);
+  m.u = eigen.vectors.col(2);
+  m.var_normal = std::max(0.0, eigen.values[0]);
+  m.var_v = std::max(0.0, eigen.values[1]);
+  m.var_u = std::max(0.0, eigen.values[2]);
   return m;
 }
 

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "runtime/matching/ray_caster.h"
+#include "runtime/numerics/symmetric_eigen.h"
 #include "tests/support/random.h"
 
 namespace plumb::test {
@@ -52,7 +53,7 @@ void AddWallPiece(std::vector<Eigen::Vector3d> points, const Eigen::Vector2d& no
   for (const Eigen::Vector3d& p : points) mean += p.head<2>() / static_cast<double>(points.size());
   Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
   for (const Eigen::Vector3d& p : points) scatter += (p.head<2>() - mean) * (p.head<2>() - mean).transpose();
-  Eigen::Vector2d n = Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(scatter).eigenvectors().col(0);
+  Eigen::Vector2d n = runtime::EigenOf(scatter).vectors.col(0);
   if (n.dot(normal) < 0) n = -n;
   if (n.dot(normal) < 0.9) return;
   const Eigen::Vector2d along(n.y(), -n.x());

@@ -1,12 +1,12 @@
 #include "tests/support/synthetic_sgraph.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "runtime/coupling/level_matching.h"
 #include "runtime/coupling/wall_frame.h"
+#include "runtime/numerics/symmetric_eigen.h"
 
 namespace plumb::test {
 namespace {
@@ -51,7 +51,7 @@ void SetGeometry(const runtime::SGraph& map, MapSurface& s, const std::vector<Ei
   runtime::PlaneStats all;
   for (const auto& p : points) all.Add(p);
   const Eigen::Matrix3d scatter = all.C.topLeftCorner<3, 3>() / all.count() - all.centroid() * all.centroid().transpose();
-  Eigen::Vector3d n = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter).eigenvectors().col(0);
+  Eigen::Vector3d n = runtime::EigenOf(scatter).vectors.col(0);
   if (n.dot(map.keyframes[s.observations.front().keyframe].T_map_kf.translation() - all.centroid()) < 0) n = -n;
   s.plane = {n, -n.dot(all.centroid())};
   s.num_points = all.count();

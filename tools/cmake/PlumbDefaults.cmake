@@ -12,9 +12,13 @@ endif()
 # Builds sooner than with CMake's own -O3.
 set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
 
+# Less garbage collection: a seventh of GCC's time for some hundred megabytes.
+add_compile_options($<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>)
+
 find_program(PLUMB_CCACHE ccache)
 if(PLUMB_CCACHE)
-  set(CMAKE_CXX_COMPILER_LAUNCHER "${PLUMB_CCACHE}")
+  # Without this it caches nothing that a precompiled header is included in.
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CMAKE_COMMAND}" -E env CCACHE_SLOPPINESS=pch_defines,time_macros "${PLUMB_CCACHE}")
 endif()
 find_program(PLUMB_MOLD mold)
 if(PLUMB_MOLD AND NOT PLUMB_SANITIZE)

@@ -118,8 +118,8 @@ SourceLocation IfcModel::Location(uint32_t index) const {
   location.type = TypeName(index);
   const StepValue first = file_.Arguments(index)[attribute::kGlobalId];
   if (first.kind() == StepValue::Kind::kString) {
-    std::string guid = first.Text();
-    if (guid.size() == kGuidLength) location.guid = std::move(guid);
+    location.guid = first.Text();
+    if (location.guid.size() != kGuidLength) location.guid.clear();
   }
   return location;
 }

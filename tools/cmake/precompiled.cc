@@ -1,0 +1,1 @@
+// Nothing: its target exists for the precompiled headers that it makes.

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "runtime/matching/aliases.h"
 #include "runtime/matching/hypotheses.h"
 #include "runtime/matching/mirror.h"
 #include "runtime/matching/posterior.h"
@@ -59,7 +60,6 @@ class PoseSearch {
   const MatcherOptions options;
 
  private:
-
   [[nodiscard]] size_t CoarseStride(const MapView& map) const { return std::max<size_t>(1, map.rays.size() / kCoarseRays); }
 
   [[nodiscard]] StoreyId StoreyAt(const MapView& map, double z_m) const {
@@ -107,33 +107,13 @@ class PoseSearch {
     return candidates;
   }
 
-  // Where the plan's own symmetries take the best, forth and back: each must be beaten explicitly.
+  // Where the plan's own symmetries take the best: each must be beaten explicitly.
   [[nodiscard]] std::vector<PlanarPose> Aliases(const std::vector<Candidate>& sorted) const {
     std::vector<PlanarPose> poses;
     for (size_t i = 0; i < std::min(sorted.size(), kAliasedFinalists); ++i) {
-      const PlanarPose& pose = sorted[i].fit.pose;
-      for (const Alias& alias : plan.plan().aliases) {
-        poses.push_back(Aliased(pose, alias.yaw_rad, alias.translation));
-        const Eigen::AngleAxisd back(-alias.yaw_rad, Eigen::Vector3d::UnitZ());
-        if (!IsInvolution(alias)) poses.push_back(Aliased(pose, -alias.yaw_rad, -(back * alias.translation)));
-      }
+      for (const PlanarPose& pose : AliasedPoses(plan.plan(), sorted[i].fit.pose)) poses.push_back(pose);
     }
     return poses;
-  }
-
-  // x -> Rz(yaw) x + translation of a pose. The motion is given in the plan frame, the pose in the mesh's.
-  [[nodiscard]] PlanarPose Aliased(const PlanarPose& pose, double yaw_rad, const Eigen::Vector3d& translation) const {
-    const Eigen::Vector3d& origin = plan.plan().origin;
-    PlanarPose turn;
-    turn.yaw_rad = yaw_rad;
-    const Eigen::Vector2d t = turn.rotation() * (pose.t_m + origin.head<2>()) + translation.head<2>() - origin.head<2>();
-    return {WrapAngle(pose.yaw_rad + yaw_rad), t, pose.z_m + translation.z()};
-  }
-
-  // A half turn is its own inverse.
-  [[nodiscard]] static bool IsInvolution(const Alias& alias) {
-    constexpr double kHalfTurn_rad = 0.01, kSameHeight_m = 0.01;
-    return std::abs(alias.yaw_rad) > std::numbers::pi - kHalfTurn_rad && std::abs(alias.translation.z()) < kSameHeight_m;
   }
 };
 

@@ -1,0 +1,110 @@
+#include "runtime/matching/posterior.h"
+
+#include <gtest/gtest.h>
+
+namespace plumb::runtime {
+namespace {
+
+using Verdict = MatchResult::Verdict;
+
+// A pose that nothing speaks against, at `x_m`.
+Candidate Good(double log_likelihood, double x_m = 0) {
+  Candidate c;
+  c.fit.pose.t_m.x() = x_m;
+  c.fit.pairs.resize(10);
+  c.fit.consistent_planes = 10;
+  c.fit.consistent_ratio = 0.9;
+  c.fit.information = c.fit.place_information = 1e6 * Eigen::Matrix3d::Identity();
+  c.fit.scale_error = 0;
+  c.fit.sigma_scale = 0.002;
+  c.rays.log_likelihood = log_likelihood;
+  c.rays.explained_ratio = 0.8;
+  c.rays.judged = 1000;
+  return c;
+}
+
+MatchResult Decided(const std::vector<Candidate>& candidates, const WrongPlans& wrong = {}) {
+  return Decide(SortAndMerge(candidates), MapView(), AGraph(), MatcherOptions(), wrong);
+}
+
+TEST(SortAndMerge, KeepsTheBestOfEachPlace) {
+  const std::vector<Candidate> kept = SortAndMerge({Good(10, 5), Good(50, 0.1), Good(80, 0), Good(20, 5.2)});
+  ASSERT_EQ(kept.size(), 2u);
+  EXPECT_EQ(kept[0].rays.log_likelihood, 80);
+  EXPECT_EQ(kept[1].rays.log_likelihood, 20);
+}
+
+TEST(Decide, OneGoodPlaceIsUnique) {
+  const MatchResult result = Decided({Good(100), Good(20, 5)});
+  EXPECT_EQ(result.verdict, Verdict::kUnique) << result.reason;
+  EXPECT_GT(result.hypotheses.front().probability, 0.9999);
+}
+
+TEST(Decide, TwoPlacesAlikeAreAmbiguous) {
+  const MatchResult result = Decided({Good(100), Good(98, 5)});
+  EXPECT_EQ(result.verdict, Verdict::kAmbiguous);
+  EXPECT_NEAR(result.hypotheses[0].probability / result.hypotheses[1].probability, std::exp(2.0), 1e-6);
+}
+
+TEST(Decide, OutsideThePlanWinsOverAPoorPlace) {
+  const MatchResult result = Decided({Good(1)});
+  EXPECT_EQ(result.verdict, Verdict::kSearching);
+  EXPECT_NEAR(result.probability_outside, 1 / (1 + std::exp(1.0)), 1e-9);
+}
+
+TEST(Decide, AMirrorImageThatFitsAsWellForbidsTheFix) {
+  WrongPlans wrong;
+  wrong.mirrored = 99;
+  const MatchResult result = Decided({Good(100)}, wrong);
+  EXPECT_EQ(result.verdict, Verdict::kSearching);
+  EXPECT_NE(result.reason.find("mirror"), std::string::npos) << result.reason;
+}
+
+TEST(Decide, WithoutASurePlanScaleOnlyRaysThatTellItAllowTheFix) {
+  Candidate unsure = Good(100);
+  unsure.fit.sigma_scale = 0.1;
+  EXPECT_EQ(Decided({unsure}).verdict, Verdict::kSearching);
+  const double needed = MatcherOptions().vouch_lead_nats;
+  WrongPlans wrong;
+  wrong.scaled = 100 - needed + 1;
+  EXPECT_EQ(Decided({unsure}, wrong).verdict, Verdict::kSearching) << "a plan of another scale fits nearly as well";
+  wrong.scaled = 100 - needed - 1;
+  EXPECT_EQ(Decided({unsure}, wrong).verdict, Verdict::kUnique);
+}
+
+TEST(Decide, APlanOfAnotherScaleIsNeverTheBuildings) {
+  Candidate scaled = Good(100);
+  scaled.fit.scale_error = 0.03;
+  const MatchResult result = Decided({scaled});
+  EXPECT_EQ(result.verdict, Verdict::kSearching);
+  EXPECT_NE(result.reason.find("scale"), std::string::npos) << result.reason;
+}
+
+TEST(RaysVouch, OnlyFarAheadOfTheRivalAndTheMirrorImage) {
+  const MatcherOptions options;
+  EXPECT_TRUE(RaysVouch({Good(100), Good(20, 5)}, 0, options));
+  EXPECT_FALSE(RaysVouch({Good(100), Good(80, 5)}, 0, options)) << "a rival is near";
+  EXPECT_FALSE(RaysVouch({Good(100), Good(20, 5)}, 80, options)) << "the mirror image is near";
+  EXPECT_FALSE(RaysVouch({Good(200), Good(200 - options.vouch_sure_nats + 1, 5)}, 0, options)) << "a small part of what both explain";
+  EXPECT_TRUE(RaysVouch({Good(200), Good(200 - options.vouch_sure_nats - 1, 5)}, 0, options)) << "sure, whatever both explain";
+  Candidate blind = Good(100);
+  blind.rays.explained_ratio = 0.5;
+  EXPECT_FALSE(RaysVouch({blind}, 0, options)) << "too few rays end where they should";
+}
+
+TEST(Doubt, FewPlanesAreEnoughOnlyWhereRaysVouch) {
+  Candidate few = Good(100);
+  few.fit.consistent_planes = MatcherOptions().vouch_min_planes;
+  EXPECT_EQ(Decided({few}).verdict, Verdict::kUnique);
+  few.rays.explained_ratio = 0.5;
+  EXPECT_EQ(Decided({few}).verdict, Verdict::kSearching);
+}
+
+TEST(RequiredPlanes, GrowWithTheNumberOfRooms) {
+  const MatcherOptions options;
+  EXPECT_EQ(RequiredPlanes(1, options), options.accept_min_planes);
+  EXPECT_EQ(RequiredPlanes(1000, options), options.accept_min_planes + 3);
+}
+
+}  // namespace
+}  // namespace plumb::runtime

@@ -234,7 +234,7 @@ std::string JointOptions::Check() const {
   }
   const std::pair<const char*, double> growth[] = {{"odometry_sigma_m_per_m", odometry_sigma_m_per_m},
       {"odometry_sigma_rad_per_m", odometry_sigma_rad_per_m}, {"odometry_sigma_rad_per_rad", odometry_sigma_rad_per_rad},
-      {"odometry_sigma_m_per_s", odometry_sigma_m_per_s}};
+      {"odometry_sigma_m_per_s", odometry_sigma_m_per_s}, {"edge_m2", edge_m2}};
   for (const auto& [name, value] : growth) {
     if (!(value >= 0)) return fmt::format("JointOptions.{} = {}; must be >= 0", name, value);
   }

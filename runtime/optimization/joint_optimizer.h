@@ -16,6 +16,7 @@ struct JointOptions {
   double correlation = 10.0;           // ... inflated by sqrt of this: points of one surface share their errors
   double observation_floor_m = 0.005;  // what one keyframe's view of a surface is good for, however many points it has: offset ...
   double observation_floor_rad = 0.003;  // ... and direction
+  double edge_m2 = 0.002;              // what clings to a surface's edge, height times width (2 cm by 10 cm): it turns short views
   double observation_loss = 3.0;       // Cauchy scale of a view, in sigmas: a wrong association loses its grip beyond
   double odometry_sigma_m = 0.005;     // per keyframe step: a constant ...
   double odometry_sigma_rad = 0.001;
@@ -24,7 +25,7 @@ struct JointOptions {
   double odometry_sigma_rad_per_rad = 0.01;  // ... turn ...
   double odometry_sigma_m_per_s = 0.002;     // ... and duration
   double gravity_sigma_rad = 0.0087;   // roll and pitch of the first keyframe
-  double bias_sigma_m = 0.03;          // prior of the common range bias
+  double bias_sigma_m = 0.02;          // prior of the common range bias
   double thickness_sigma_m = 0.01;     // prior of a wall's thickness error
   double tilt_sigma_rad = 0.003;       // prior of a wall's tilt
   double level_sigma_m = 0.015;        // prior of a floor's or ceiling's height error

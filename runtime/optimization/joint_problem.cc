@@ -3,6 +3,9 @@
 #include <ceres/ceres.h>
 
 #include <algorithm>
+#include <map>
+#include <memory>
+#include <utility>
 
 #include "runtime/optimization/wall_measurement.h"
 
@@ -17,7 +20,9 @@ constexpr double kAnchorSigma_m = 1e-4, kAnchorSigma_rad = 1e-4;
 constexpr std::array<double, kPlaceSize> kPlaceWeight{0.1, 0.1, 0.1, 1.0};
 constexpr double kHeldHeight_m = 0.005;  // without floor or ceiling, walls a thousandth off plumb would drag the height along by metres
 constexpr std::array<double, kPlaneSize> kPlaneWeight{1.0, 1.0, 1.0, 0.1};
-constexpr double kOdometryLoss = 3.0, kLevelLoss = 2.0;  // in sigmas
+constexpr double kOdometryLoss = 3.0;  // in sigmas
+// The robot stands on the floor, which is where the plan has it or all heights are off; ceilings get suspended and have beams and ducts.
+constexpr double kFloorLoss = 3.0, kCeilingLoss = 1.0;
 
 template <class Functor, int kResiduals, int... kBlocks>
 auto* Cost(const Functor& functor) {
@@ -36,7 +41,7 @@ ceres::Problem::Options SharedLossesAndManifolds() {
 struct JointProblem::Impl {
   Impl(const SGraph& map_in, const AGraph& plan_in, const std::vector<WallFrame>& frames_in, const JointOptions& options_in, JointState& state_in)
       : map(map_in), plan(plan_in), frames(frames_in), options(options_in), state(state_in), observation_loss(options.observation_loss),
-        odometry_loss(kOdometryLoss), level_loss(kLevelLoss), level_weight{1 / options.level_sigma_m}, bias_weight{1 / options.bias_sigma_m},
+        odometry_loss(kOdometryLoss), floor_loss(kFloorLoss), ceiling_loss(kCeilingLoss), level_weight{1 / options.level_sigma_m}, bias_weight{1 / options.bias_sigma_m},
         problem(SharedLossesAndManifolds()) {}
 
   void AddKeyframes() {
@@ -81,7 +86,7 @@ struct JointProblem::Impl {
         const Observation& o = observations[i];
         if (m.IsMistaken(i)) continue;
         problem.AddResidualBlock(
-            Cost<WallViewResidual, 3, kPoseSize, kPlaceSize, kNumWallParameters, 1>({PlaneView(o.stats, NoiseOf(options)), face}),
+            Cost<WallViewResidual, 3, kPoseSize, kPlaceSize, kNumWallParameters, 1>({PlaneView(o.stats, NoiseOf(options), observations.size()), face}),
             &observation_loss, state.poses[o.keyframe].data(), state.place.data(), wall, &state.bias_m);
       }
     }
@@ -90,19 +95,39 @@ struct JointProblem::Impl {
   void AddLevels(const std::vector<Match>& matches) {
     state.levels.clear();
     state.levels.reserve(matches.size());
+    std::map<std::pair<RoomId, SurfaceKind>, int> pieces;
+    for (const Match& m : matches) {
+      if (!m.plan_surface.valid()) ++pieces[{m.room, map.surfaces[m.map_surface].kind}];
+    }
     for (const Match& m : matches) {
       if (m.plan_surface.valid()) continue;
       const MapSurface& surface = map.surfaces[m.map_surface];
       const Room& room = plan.rooms[m.room.index()];
       const bool floor = surface.kind == SurfaceKind::kFloor;
-      double* level = state.levels.emplace_back().data();
-      problem.AddResidualBlock(Cost<PriorResidual<1>, 1, 1>({{0.0}, &level_weight}), &level_loss, level);
+      // From where it stands: from zero, the ceilings of a building lower than planned would together push the floor down.
+      double* level = state.levels.emplace_back(std::array<double, 1>{LevelError(surface, floor ? room.floor_z_m : room.ceiling_z_m)}).data();
+      // However many pieces a room's ceiling was seen in, it has one vote.
+      auto* vote = new ceres::ScaledLoss(floor ? &floor_loss : &ceiling_loss, 1.0 / pieces[{m.room, surface.kind}], ceres::DO_NOT_TAKE_OWNERSHIP);
+      level_votes.emplace_back(vote);
+      problem.AddResidualBlock(Cost<PriorResidual<1>, 1, 1>({{0.0}, &level_weight}), vote, level);
       for (const Observation& o : surface.observations) {
-        const LevelViewResidual residual{PlaneView(o.stats, NoiseOf(options)), floor ? room.floor_z_m : room.ceiling_z_m, floor ? 1.0 : -1.0};
+        const LevelViewResidual residual{PlaneView(o.stats, NoiseOf(options), surface.observations.size()), floor ? room.floor_z_m : room.ceiling_z_m, floor ? 1.0 : -1.0};
         problem.AddResidualBlock(Cost<LevelViewResidual, 3, kPoseSize, kPlaceSize, 1>(residual), &observation_loss,
                                  state.poses[o.keyframe].data(), state.place.data(), level);
       }
     }
+  }
+
+  // How much higher than planned a floor or ceiling lies, by the state's poses and place. Mean over its points.
+  [[nodiscard]] double LevelError(const MapSurface& surface, double planned_z_m) const {
+    const Eigen::Isometry3d T_plan_map = PlaceOf(state.place);
+    double sum = 0, count = 0;
+    for (const Observation& o : surface.observations) {
+      const Eigen::Vector3d p = T_plan_map * (PoseOf(state.poses[o.keyframe]) * o.stats.centroid());
+      sum += o.stats.count() * (p.z() - planned_z_m);
+      count += o.stats.count();
+    }
+    return count > 0 ? sum / count : 0;
   }
 
   void AddFreePlanes(const std::vector<Match>& matches) {
@@ -118,7 +143,7 @@ struct JointProblem::Impl {
       problem.AddParameterBlock(plane, kPlaneSize, &plane_manifold);
       problem.AddResidualBlock(Cost<PriorResidual<kPlaneSize>, kPlaneSize, kPlaneSize>({state.planes.back(), &kPlaneWeight}), nullptr, plane);
       for (const Observation& o : surface.observations) {
-        problem.AddResidualBlock(Cost<FreeViewResidual, 3, kPoseSize, kPlaneSize>({PlaneView(o.stats, NoiseOf(options))}), &observation_loss,
+        problem.AddResidualBlock(Cost<FreeViewResidual, 3, kPoseSize, kPlaneSize>({PlaneView(o.stats, NoiseOf(options), surface.observations.size())}), &observation_loss,
                                  state.poses[o.keyframe].data(), plane);
       }
     }
@@ -131,7 +156,8 @@ struct JointProblem::Impl {
   JointState& state;
   ceres::CauchyLoss observation_loss;
   ceres::HuberLoss odometry_loss;
-  ceres::CauchyLoss level_loss;
+  ceres::CauchyLoss floor_loss, ceiling_loss;
+  std::vector<std::unique_ptr<ceres::LossFunction>> level_votes;
   PoseManifold pose_manifold;
   PlaneManifold plane_manifold;
   std::vector<std::array<double, kNumWallParameters>> wall_weights;

@@ -24,7 +24,7 @@ PlaneMoments ComputeMoments(const PlaneStats& stats) {
   return m;
 }
 
-PlaneView::PlaneView(const PlaneStats& stats, const ViewNoise& noise) {
+PlaneView::PlaneView(const PlaneStats& stats, const ViewNoise& noise, size_t num_views) {
   const PlaneMoments m = ComputeMoments(stats);
   if (m.count <= 0) return;
   center = m.center;
@@ -34,7 +34,9 @@ PlaneView::PlaneView(const PlaneStats& stats, const ViewNoise& noise) {
   const double point_variance = std::max(noise.point_sigma_m * noise.point_sigma_m, m.var_normal) * noise.correlation / m.count;
   weight_center = 1.0 / std::sqrt(point_variance + noise.floor_m * noise.floor_m);
   const auto direction_weight = [&](double variance) {
-    return variance <= 0 ? 0.0 : 1.0 / std::sqrt(point_variance / variance + noise.floor_rad * noise.floor_rad);
+    if (variance <= 0) return 0.0;
+    const double edge_rad = noise.edge_m2 / (2 * variance);
+    return 1.0 / std::sqrt(point_variance / variance + noise.floor_rad * noise.floor_rad + static_cast<double>(num_views) * edge_rad * edge_rad);
   };
   weight_u = direction_weight(m.var_u);
   weight_v = direction_weight(m.var_v);

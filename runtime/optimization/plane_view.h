@@ -19,12 +19,14 @@ struct PlaneMoments {
 
 struct ViewNoise {
   double point_sigma_m = 0.03, correlation = 10, floor_m = 0.005, floor_rad = 0.003;
+  double edge_m2 = 0.002;  // height times width of what clings to a surface's edge (frames, skirtings, rounded corners): it turns short views
 };
 
 // Residual of a predicted plane (n, d) in the view's frame: [(n.c + d) w_c, n.u w_u, n.v w_v]; zero on the points' own plane.
 struct PlaneView {
   PlaneView() = default;
-  PlaneView(const PlaneStats& stats, const ViewNoise& noise);
+  // num_views: of this surface. What clings to its edge is in all of them and does not average out.
+  PlaneView(const PlaneStats& stats, const ViewNoise& noise, size_t num_views = 1);
 
   template <class T>
   void Residual(const Eigen::Matrix<T, 3, 1>& n, const T& d, T* r) const {

@@ -55,7 +55,7 @@ WallMeasurement Split(WallId wall, const NormalEquations& ne) {
 }  // namespace
 
 ViewNoise NoiseOf(const JointOptions& options) {
-  return {options.point_sigma_m, options.correlation, options.observation_floor_m, options.observation_floor_rad};
+  return {options.point_sigma_m, options.correlation, options.observation_floor_m, options.observation_floor_rad, options.edge_m2};
 }
 
 std::vector<WallMeasurement> MeasureWalls(const SGraph& map, const AGraph& plan, const std::vector<WallFrame>& frames,
@@ -70,7 +70,7 @@ std::vector<WallMeasurement> MeasureWalls(const SGraph& map, const AGraph& plan,
     for (size_t i = 0; i < observations.size(); ++i) {
       const Observation& o = observations[i];
       if (match.IsMistaken(i)) continue;
-      AddView(PlaneView(o.stats, NoiseOf(options)), T_plan_map * T_map_kf[o.keyframe], face,
+      AddView(PlaneView(o.stats, NoiseOf(options), observations.size()), T_plan_map * T_map_kf[o.keyframe], face,
               walls.try_emplace(surface.wall, options.thickness_sigma_m).first->second);
     }
   }

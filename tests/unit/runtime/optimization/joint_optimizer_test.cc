@@ -99,6 +99,31 @@ TEST(OptimizeJointly, HoldsTheHeightWithoutFloorAndCeiling) {
   EXPECT_NEAR((s.result.T_plan_map.translation() - s.drive.T_plan_map.translation()).z(), 0, 0.03);
 }
 
+// Suspended ceilings, beams and lintels come in many pieces; the floor is one.
+TEST(OptimizeJointly, ManyLowCeilingsDoNotPushTheFloorDown) {
+  const AGraph house = test::MakeHouse();
+  constexpr double kLower_m = 0.2;
+  test::Drive drive = test::DriveThroughHouse(house);
+  const std::vector<MapSurface> surfaces = drive.map.surfaces;
+  for (const MapSurface& floor : surfaces) {
+    if (floor.kind != SurfaceKind::kFloor) continue;
+    const Eigen::Isometry3d up(Eigen::Translation3d(0, 0, house.rooms[0].ceiling_z_m - house.rooms[0].floor_z_m - kLower_m));
+    MapSurface ceiling = floor;
+    ceiling.kind = SurfaceKind::kCeiling;
+    ceiling.plane = floor.plane.Transformed(up);
+    for (Observation& o : ceiling.observations) o.stats = o.stats.Transformed(up);
+    for (int copy = 0; copy < 3; ++copy) {
+      ceiling.id = static_cast<uint32_t>(drive.map.surfaces.size());
+      drive.map.surfaces.push_back(ceiling);
+      drive.built.emplace_back();
+    }
+  }
+  const Solved s = SolveDrive(house, std::move(drive));
+  const auto ceilings = std::count_if(s.matches.begin(), s.matches.end(), [&](const Match& m) { return s.drive.map.surfaces[m.map_surface].kind == SurfaceKind::kCeiling; });
+  ASSERT_GE(ceilings, 9) << "or they could push nothing";
+  EXPECT_NEAR((s.result.T_plan_map.translation() - s.drive.T_plan_map.translation()).z(), 0, 0.02);
+}
+
 TEST(OptimizeJointly, DeviatedWallsDoNotDragThePlace) {
   const AGraph house = test::MakeHouse();
   test::Random random(99);

@@ -60,11 +60,34 @@ TEST(PlaneMoments, SurviveSemidefiniteScatter) {
   EXPECT_EQ(PlaneView(PlaneStats{}, {}).weight_center, 0);
 }
 
+// A strip that clings to one end of a face turns the plane that is fitted to it: in every view alike.
+TEST(PlaneView, AllowsForWhatClingsToTheEdge) {
+  constexpr double kHeight_m = 0.02, kWidth_m = 0.1;
+  for (const double length_m : {0.6, 1.0, 3.0}) {
+    std::vector<Eigen::Vector3d> points;
+    for (double x = 0.0005; x < length_m; x += 0.001) {
+      for (const double z : {-1.0, 1.0}) points.emplace_back(x, x < kWidth_m ? kHeight_m : 0, z);
+    }
+    const PlaneMoments m = ComputeMoments(StatsOf(points));
+    const double turned_rad = std::abs(std::atan2(m.normal.x(), m.normal.y()));
+    const double along = std::abs(m.u.x()) > 0.5 ? m.var_u : m.var_v;
+    ViewNoise noise{1e-6, 1, 0.0, 0.0, kHeight_m * kWidth_m};
+    for (const size_t views : {1, 9}) {
+      const PlaneView view(StatsOf(points), noise, views);
+      const double weight = std::abs(view.u.x()) > 0.5 ? view.weight_u : view.weight_v;
+      // All views together, each with the same error.
+      const double sigma_rad = 1 / (weight * std::sqrt(static_cast<double>(views)));
+      EXPECT_NEAR(sigma_rad, noise.edge_m2 / (2 * along), 0.05 * sigma_rad) << length_m << " m, " << views;
+      EXPECT_NEAR(sigma_rad, turned_rad, 0.25 * turned_rad) << length_m << " m, " << views;
+    }
+  }
+}
+
 TEST(PlaneView, IsZeroOnThePointsPlaneAndWeighsInSigmas) {
   test::Random random(2);
   const auto points = Patch(random, 1000, 0.0);
   const PlaneMoments m = ComputeMoments(StatsOf(points));
-  const PlaneView view(StatsOf(points), {0.03, 10, 0.0, 0.0});
+  const PlaneView view(StatsOf(points), {0.03, 10, 0.0, 0.0, 0.0});
   double r[3];
   view.Residual(m.normal, -m.normal.dot(m.center), r);
   for (double x : r) EXPECT_NEAR(x, 0, 1e-6);

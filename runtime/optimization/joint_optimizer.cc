@@ -11,6 +11,7 @@
 
 #include "runtime/coupling/mixture.h"
 #include "runtime/optimization/joint_problem.h"
+#include "runtime/optimization/level_votes.h"
 #include "runtime/optimization/place_seed.h"
 #include "runtime/optimization/wall_measurement.h"
 
@@ -81,27 +82,9 @@ class Optimizer {
   }
 
  private:
-  // Height of the plan's place from the matched floors: the median asks for no prior knowledge of which floor is right.
-  void SeedHeight() {
-    std::vector<double> errors;
-    for (const Match& m : matches_) {
-      if (!m.room.valid() || m.plan_surface.valid() || map_.surfaces[m.map_surface].kind != SurfaceKind::kFloor) continue;
-      for (const Observation& o : map_.surfaces[m.map_surface].observations) {
-        const Eigen::Vector3d p = Place() * (PoseOf(state_.poses[o.keyframe]) * o.stats.centroid());
-        errors.push_back(p.z() - plan_.rooms[m.room.index()].floor_z_m);
-      }
-    }
-    if (errors.empty()) return;
-    const auto middle = errors.begin() + static_cast<std::ptrdiff_t>(errors.size() / 2);
-    std::nth_element(errors.begin(), middle, errors.end());
-    state_.place[2] -= *middle;
-  }
+  void SeedHeight() { state_.place[2] -= ConsensusHeight(LevelVotes(map_, plan_, matches_, Poses(state_), Place()), options_.level_sigma_m); }
 
-  void Measure() {
-    std::vector<Eigen::Isometry3d> poses;
-    for (const auto& pose : state_.poses) poses.push_back(PoseOf(pose));
-    measurements_ = MeasureWalls(map_, plan_, frames_, matches_, poses, Place(), options_);
-  }
+  void Measure() { measurements_ = MeasureWalls(map_, plan_, frames_, matches_, Poses(state_), Place(), options_); }
 
   // Wall-level consensus on where the plan lies. Between rounds it only steps in when another place is clearly better.
   void Reseed(bool always) {
@@ -133,7 +116,7 @@ class Optimizer {
 
   void Report(const std::optional<JointCovariances>& covariances, JointResult& result) const {
     result.T_plan_map = Place();
-    for (const auto& pose : state_.poses) result.T_map_kf.push_back(PoseOf(pose));
+    result.T_map_kf = Poses(state_);
     result.range_bias_m = state_.bias_m;
     result.covariances_exact = covariances.has_value();
     if (covariances) {

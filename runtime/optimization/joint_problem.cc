@@ -3,10 +3,10 @@
 #include <ceres/ceres.h>
 
 #include <algorithm>
-#include <map>
 #include <memory>
 #include <utility>
 
+#include "runtime/optimization/level_votes.h"
 #include "runtime/optimization/wall_measurement.h"
 
 namespace plumb::runtime {
@@ -21,8 +21,6 @@ constexpr std::array<double, kPlaceSize> kPlaceWeight{0.1, 0.1, 0.1, 1.0};
 constexpr double kHeldHeight_m = 0.005;  // without floor or ceiling, walls a thousandth off plumb would drag the height along by metres
 constexpr std::array<double, kPlaneSize> kPlaneWeight{1.0, 1.0, 1.0, 0.1};
 constexpr double kOdometryLoss = 3.0;  // in sigmas
-// The robot stands on the floor, which is where the plan has it or all heights are off; ceilings get suspended and have beams and ducts.
-constexpr double kFloorLoss = 3.0, kCeilingLoss = 1.0;
 
 template <class Functor, int kResiduals, int... kBlocks>
 auto* Cost(const Functor& functor) {
@@ -93,41 +91,22 @@ struct JointProblem::Impl {
   }
 
   void AddLevels(const std::vector<Match>& matches) {
+    const std::vector<LevelVote> votes = LevelVotes(map, plan, matches, Poses(state), PlaceOf(state.place));
     state.levels.clear();
-    state.levels.reserve(matches.size());
-    std::map<std::pair<RoomId, SurfaceKind>, int> pieces;
-    for (const Match& m : matches) {
-      if (!m.plan_surface.valid()) ++pieces[{m.room, map.surfaces[m.map_surface].kind}];
-    }
-    for (const Match& m : matches) {
-      if (m.plan_surface.valid()) continue;
-      const MapSurface& surface = map.surfaces[m.map_surface];
-      const Room& room = plan.rooms[m.room.index()];
-      const bool floor = surface.kind == SurfaceKind::kFloor;
+    state.levels.reserve(votes.size());
+    for (const LevelVote& vote : votes) {
       // From where it stands: from zero, the ceilings of a building lower than planned would together push the floor down.
-      double* level = state.levels.emplace_back(std::array<double, 1>{LevelError(surface, floor ? room.floor_z_m : room.ceiling_z_m)}).data();
-      // However many pieces a room's ceiling was seen in, it has one vote.
-      auto* vote = new ceres::ScaledLoss(floor ? &floor_loss : &ceiling_loss, 1.0 / pieces[{m.room, surface.kind}], ceres::DO_NOT_TAKE_OWNERSHIP);
-      level_votes.emplace_back(vote);
-      problem.AddResidualBlock(Cost<PriorResidual<1>, 1, 1>({{0.0}, &level_weight}), vote, level);
-      for (const Observation& o : surface.observations) {
-        const LevelViewResidual residual{PlaneView(o.stats, NoiseOf(options), surface.observations.size()), floor ? room.floor_z_m : room.ceiling_z_m, floor ? 1.0 : -1.0};
+      double* level = state.levels.emplace_back(std::array<double, 1>{vote.error_m}).data();
+      level_losses.push_back(
+          std::make_unique<ceres::ScaledLoss>(vote.floor ? &floor_loss : &ceiling_loss, vote.share, ceres::DO_NOT_TAKE_OWNERSHIP));
+      problem.AddResidualBlock(Cost<PriorResidual<1>, 1, 1>({{0.0}, &level_weight}), level_losses.back().get(), level);
+      const std::vector<Observation>& observations = map.surfaces[matches[vote.match].map_surface].observations;
+      for (const Observation& o : observations) {
+        const LevelViewResidual residual{PlaneView(o.stats, NoiseOf(options), observations.size()), vote.planned_z_m, vote.floor ? 1.0 : -1.0};
         problem.AddResidualBlock(Cost<LevelViewResidual, 3, kPoseSize, kPlaceSize, 1>(residual), &observation_loss,
                                  state.poses[o.keyframe].data(), state.place.data(), level);
       }
     }
-  }
-
-  // How much higher than planned a floor or ceiling lies, by the state's poses and place. Mean over its points.
-  [[nodiscard]] double LevelError(const MapSurface& surface, double planned_z_m) const {
-    const Eigen::Isometry3d T_plan_map = PlaceOf(state.place);
-    double sum = 0, count = 0;
-    for (const Observation& o : surface.observations) {
-      const Eigen::Vector3d p = T_plan_map * (PoseOf(state.poses[o.keyframe]) * o.stats.centroid());
-      sum += o.stats.count() * (p.z() - planned_z_m);
-      count += o.stats.count();
-    }
-    return count > 0 ? sum / count : 0;
   }
 
   void AddFreePlanes(const std::vector<Match>& matches) {
@@ -157,7 +136,7 @@ struct JointProblem::Impl {
   ceres::CauchyLoss observation_loss;
   ceres::HuberLoss odometry_loss;
   ceres::CauchyLoss floor_loss, ceiling_loss;
-  std::vector<std::unique_ptr<ceres::LossFunction>> level_votes;
+  std::vector<std::unique_ptr<ceres::LossFunction>> level_losses;
   PoseManifold pose_manifold;
   PlaneManifold plane_manifold;
   std::vector<std::array<double, kNumWallParameters>> wall_weights;
@@ -184,6 +163,13 @@ Eigen::Isometry3d PlaceOf(const std::array<double, kPlaceSize>& place) {
   T.linear() = Eigen::AngleAxisd(place[3], Eigen::Vector3d::UnitZ()).toRotationMatrix();
   T.translation() = Eigen::Vector3d(place[0], place[1], place[2]);
   return T;
+}
+
+std::vector<Eigen::Isometry3d> Poses(const JointState& state) {
+  std::vector<Eigen::Isometry3d> poses;
+  poses.reserve(state.poses.size());
+  for (const auto& pose : state.poses) poses.push_back(PoseOf(pose));
+  return poses;
 }
 
 std::array<double, kPlaceSize> PlaceBlock(const Eigen::Isometry3d& T_plan_map) {

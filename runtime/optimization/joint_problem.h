@@ -27,6 +27,7 @@ struct JointState {
 [[nodiscard]] Eigen::Isometry3d PoseOf(const std::array<double, kPoseSize>& pose);
 [[nodiscard]] std::array<double, kPoseSize> PoseBlock(const Eigen::Isometry3d& T);
 [[nodiscard]] Eigen::Isometry3d PlaceOf(const std::array<double, kPlaceSize>& place);
+[[nodiscard]] std::vector<Eigen::Isometry3d> Poses(const JointState& state);  // T_map_kf per keyframe
 [[nodiscard]] std::array<double, kPlaceSize> PlaceBlock(const Eigen::Isometry3d& T_plan_map);
 
 struct JointCovariances {

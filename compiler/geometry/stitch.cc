@@ -1,7 +1,10 @@
 #include "compiler/geometry/stitch.h"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
+
+#include "compiler/geometry/box_tree.h"
 
 namespace plumb::compiler {
 namespace {
@@ -32,52 +35,66 @@ Corners Weld(const std::vector<Ring3>& polygons, double tolerance_m) {
 
 class EdgeSplitter {
  public:
-  EdgeSplitter(const std::vector<Vector3d>& points, double tolerance_m) : points_(points), tolerance_m_(tolerance_m) {
-    // Along the longest extent, where edges overlap the fewest other corners.
-    Eigen::AlignedBox3d box;
-    for (const Vector3d& p : points) box.extend(p);
-    if (!box.isEmpty()) box.sizes().maxCoeff(&axis_);
-    order_.resize(points.size());
-    for (size_t i = 0; i < order_.size(); ++i) order_[i] = static_cast<int>(i);
-    std::sort(order_.begin(), order_.end(), [&](int a, int b) { return Along(a) != Along(b) ? Along(a) < Along(b) : a < b; });
-  }
+  EdgeSplitter(const std::vector<Vector3d>& points, double tolerance_m) : points_(points), tolerance_m_(tolerance_m), tree_(BoxesOf(points)) {}
 
   // Appends the corners inside the edge from a to b, in that order.
-  void AppendInside(int a, int b, std::vector<int>& ring) const {
+  void AppendInside(int a, int b, std::vector<int>& ring) {
     const Vector3d& p = points_[static_cast<size_t>(a)];
     const Vector3d edge = points_[static_cast<size_t>(b)] - p;
     const double length2 = edge.squaredNorm();
-    const double low = std::min(Along(a), Along(b)) - tolerance_m_, high = std::max(Along(a), Along(b)) + tolerance_m_;
-    std::vector<std::pair<double, int>> found;
-    auto it = std::lower_bound(order_.begin(), order_.end(), low, [&](int i, double x) { return Along(i) < x; });
-    for (; it != order_.end() && Along(*it) <= high; ++it) {
-      if (*it == a || *it == b) continue;
-      const Vector3d to = points_[static_cast<size_t>(*it)] - p;
+    found_.clear();
+    tree_.ForEach([&](const Eigen::AlignedBox3d& box) { return PassesNear(p, edge, box); }, [&](uint32_t i) {
+      const int corner = static_cast<int>(i);
+      if (corner == a || corner == b) return;
+      const Vector3d to = points_[i] - p;
       const double t = to.dot(edge);
-      if (t <= 0 || t >= length2) continue;
-      if ((to - edge * (t / length2)).squaredNorm() <= tolerance_m_ * tolerance_m_) found.emplace_back(t, *it);
-    }
-    std::sort(found.begin(), found.end());
-    for (const auto& [t, i] : found) ring.push_back(i);
+      if (t <= 0 || t >= length2) return;
+      if ((to - edge * (t / length2)).squaredNorm() <= tolerance_m_ * tolerance_m_) found_.emplace_back(t, corner);
+    });
+    std::sort(found_.begin(), found_.end());
+    for (const auto& [t, i] : found_) ring.push_back(i);
   }
 
  private:
-  double Along(int i) const { return points_[static_cast<size_t>(i)][axis_]; }
+  static std::vector<Eigen::AlignedBox3d> BoxesOf(const std::vector<Vector3d>& points) {
+    std::vector<Eigen::AlignedBox3d> out;
+    out.reserve(points.size());
+    for (const Vector3d& p : points) out.emplace_back(p);
+    return out;
+  }
+
+  // Whether p + t edge for some t in [0, 1] lies in the box and a margin, which is twice the tolerance so that rounding takes none away.
+  [[nodiscard]] bool PassesNear(const Vector3d& p, const Vector3d& edge, const Eigen::AlignedBox3d& box) const {
+    double enter = 0, leave = 1;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double low = box.min()[axis] - 2 * tolerance_m_ - p[axis], high = box.max()[axis] + 2 * tolerance_m_ - p[axis];
+      if (std::abs(edge[axis]) <= tolerance_m_ / 2) {
+        if (low > 0 || high < 0) return false;
+        continue;
+      }
+      const double s = low / edge[axis], t = high / edge[axis];
+      enter = std::max(enter, std::min(s, t));
+      leave = std::min(leave, std::max(s, t));
+      if (enter > leave) return false;
+    }
+    return true;
+  }
 
   const std::vector<Vector3d>& points_;
   double tolerance_m_;
-  Eigen::Index axis_ = 0;
-  std::vector<int> order_;
+  BoxTree<3> tree_;
+  std::vector<std::pair<double, int>> found_;  // kept for its memory
 };
 
 }  // namespace
 
 Solid StitchPolygons(const std::vector<Ring3>& polygons, double tolerance_m) {
   Corners corners = Weld(polygons, tolerance_m);
-  const EdgeSplitter splitter(corners.points, tolerance_m);
+  EdgeSplitter splitter(corners.points, tolerance_m);
   Solid solid;
+  std::vector<int> full;
   for (const std::vector<int>& ring : corners.rings) {
-    std::vector<int> full;
+    full.clear();
     for (size_t i = 0; i < ring.size(); ++i) {
       full.push_back(ring[i]);
       splitter.AppendInside(ring[i], ring[(i + 1) % ring.size()], full);

@@ -27,17 +27,19 @@ class BoxTree {
 
   [[nodiscard]] size_t size() const { return boxes_.size(); }
 
-  // Calls visit(i) for each box i with meets(box), given that meets(a) implies meets(b) where b contains a. The order is fixed, but no
-  // particular one.
+  // Calls visit(i) for each box i with meets(box), and for a few others beside them, given that meets(a) implies meets(b) where b contains
+  // a. The order is fixed, but no particular one.
   template <class Meets, class Visit>
   void ForEach(const Meets& meets, const Visit& visit) const {
     if (!order_.empty()) Descend(1, 0, order_.size(), meets, visit);
   }
 
-  // Those that have a point in common with `query`, on its border too.
+  // Only those that have a point in common with `query`, on its border too.
   template <class Visit>
   void ForEachIn(const Box& query, const Visit& visit) const {
-    ForEach([&query](const Box& box) { return box.intersects(query); }, visit);
+    ForEach([&query](const Box& box) { return box.intersects(query); }, [&](uint32_t i) {
+      if (boxes_[i].intersects(query)) visit(i);
+    });
   }
 
  private:
@@ -67,9 +69,7 @@ class BoxTree {
   void Descend(size_t node, size_t first, size_t last, const Meets& meets, const Visit& visit) const {
     if (!meets(nodes_[node])) return;
     if (IsLeaf(node)) {
-      for (size_t i = first; i < last; ++i) {
-        if (meets(boxes_[order_[i]])) visit(order_[i]);
-      }
+      for (size_t i = first; i < last; ++i) visit(order_[i]);
       return;
     }
     const size_t middle = (first + last) / 2;

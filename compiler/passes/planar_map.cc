@@ -20,7 +20,7 @@ namespace plumb::compiler {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
-using Traits = CGAL::Arr_consolidated_curve_data_traits_2<CGAL::Arr_segment_traits_2<Kernel>, uint32_t>;  // data: index of the SnapSegment
+using Traits = CGAL::Arr_consolidated_curve_data_traits_2<CGAL::Arr_segment_traits_2<Kernel>, uint32_t>;  // data: number of the run
 
 // Winding number per outline: of footprints by their index, then of dividers. Those with 0 are left out.
 using Windings = std::map<uint32_t, int>;
@@ -76,15 +76,30 @@ class MapBuilder {
   }
 
  private:
+  // Segments over each other make one curve: to find out in exact arithmetic that they are the same takes most of the time otherwise.
   void Insert() {
-    std::vector<Traits::Curve_2> curves;
-    const auto point = [this](uint32_t v) { return Kernel::Point_2(graph_.vertices[v].x(), graph_.vertices[v].y()); };
+    const auto less = [this](uint32_t a, uint32_t b) { return LexicographicallyLess(graph_.vertices[a], graph_.vertices[b]); };
+    std::map<std::pair<uint32_t, uint32_t>, std::vector<uint32_t>> runs;
     for (uint32_t i = 0; i < graph_.segments.size(); ++i) {
       const SnapSegment& s = graph_.segments[i];
       if (graph_.vertices[s.from] == graph_.vertices[s.to]) continue;
-      curves.emplace_back(Kernel::Segment_2(point(s.from), point(s.to)), i);
+      runs[less(s.from, s.to) ? std::pair(s.from, s.to) : std::pair(s.to, s.from)].push_back(i);
+    }
+    std::vector<Kernel::Point_2> points;
+    for (const Eigen::Vector2d& v : graph_.vertices) points.emplace_back(v.x(), v.y());
+    std::vector<Traits::X_monotone_curve_2> curves;
+    for (auto& [ends, segments] : runs) {
+      curves.emplace_back(CGAL::Arr_segment_traits_2<Kernel>::X_monotone_curve_2(points[ends.first], points[ends.second]), static_cast<uint32_t>(runs_.size()));
+      runs_.push_back(std::move(segments));
     }
     CGAL::insert(arrangement_, curves.begin(), curves.end());
+  }
+
+  template <class Visit>
+  void ForEachSegment(Halfedge edge, const Visit& visit) const {
+    for (const uint32_t run : edge->curve().data()) {
+      for (const uint32_t i : runs_[run]) visit(graph_.segments[i]);
+    }
   }
 
   // Edges with the same face on both sides bound nothing.
@@ -105,12 +120,11 @@ class MapBuilder {
   Windings StepOver(Halfedge edge) const {
     Windings out;
     const bool edge_forward = edge->direction() == CGAL::ARR_LEFT_TO_RIGHT;
-    for (const uint32_t i : edge->curve().data()) {
-      const SnapSegment& s = graph_.segments[i];
-      if (s.footprint >= FirstBridge()) continue;
+    ForEachSegment(edge, [&](const SnapSegment& s) {
+      if (s.footprint >= FirstBridge()) return;
       const bool forward = LexicographicallyLess(graph_.vertices[s.from], graph_.vertices[s.to]);
       out[s.footprint] += forward == edge_forward ? 1 : -1;
-    }
+    });
     return out;
   }
 
@@ -154,8 +168,9 @@ class MapBuilder {
   }
   // No wall's outline and no bridge runs here.
   bool IsVirtual(Halfedge edge) const {
-    return std::all_of(edge->curve().data().begin(), edge->curve().data().end(),
-                       [this](uint32_t i) { return IsDivider(graph_.segments[i].footprint); });
+    bool is_virtual = true;
+    ForEachSegment(edge, [&](const SnapSegment& s) { is_virtual &= IsDivider(s.footprint); });
+    return is_virtual;
   }
 
   static double AreaOf(Arrangement::Face_handle face) {
@@ -264,13 +279,12 @@ class MapBuilder {
       b.from = edge->source()->data();
       b.to = edge->target()->data();
       b.face = edge->twin()->face()->data().index;
-      for (const uint32_t i : edge->curve().data()) {
-        const uint32_t outline = graph_.segments[i].footprint;
-        if (IsBridge(outline))
-          b.bridge = std::min(b.bridge, outline - FirstBridge());
-        else if (!IsDivider(outline))
-          b.footprints.push_back(outline);
-      }
+      ForEachSegment(edge, [&](const SnapSegment& s) {
+        if (IsBridge(s.footprint))
+          b.bridge = std::min(b.bridge, s.footprint - FirstBridge());
+        else if (!IsDivider(s.footprint))
+          b.footprints.push_back(s.footprint);
+      });
       if (!b.footprints.empty()) b.bridge = kNoIndex;
       if (b.bridge != kNoIndex) b.footprints = {floor_.bridges[b.bridge].footprint_a, floor_.bridges[b.bridge].footprint_b};
       std::sort(b.footprints.begin(), b.footprints.end());
@@ -322,6 +336,7 @@ class MapBuilder {
   Floor& floor_;
   const PlanarMapOptions& options_;
   SnapGraph graph_;
+  std::vector<std::vector<uint32_t>> runs_;  // segments of the graph that lie over each other: the data of the curves
   Arrangement arrangement_;
 };
 

@@ -212,6 +212,13 @@ void AppendSolid(const Solid& from, Solid& into) {
   for (size_t i = first; i < into.triangles.size(); ++i) into.triangles[i].array() += base;
 }
 
+void AppendSolid(Solid&& from, Solid& into) {
+  if (into.vertices.empty() && into.triangles.empty())
+    into = std::move(from);
+  else
+    AppendSolid(std::as_const(from), into);
+}
+
 void WeldSolid(double tolerance_m, Solid& solid) {
   VertexWelder index(tolerance_m);
   std::vector<int> renamed(solid.vertices.size(), -1);
@@ -242,10 +249,7 @@ void OrientOutward(Solid& solid) {
   solid = {};
   for (Solid& piece : pieces) {
     if (Volume(piece) < 0) FlipSolid(piece);
-    if (solid.empty())
-      solid = std::move(piece);
-    else
-      AppendSolid(piece, solid);
+    AppendSolid(std::move(piece), solid);
   }
 }
 

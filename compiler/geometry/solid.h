@@ -28,6 +28,7 @@ struct Solid {
 // Mirroring maps keep the normals outward: the triangles are turned.
 void TransformSolid(const Eigen::Affine3d& T_out_in, Solid& solid);
 void AppendSolid(const Solid& from, Solid& into);
+void AppendSolid(Solid&& from, Solid& into);  // without a copy where `into` is empty
 void FlipSolid(Solid& solid);
 
 // Finds an earlier point within a tolerance by hashing points to cells much larger than it; only points near a cell's border are looked up

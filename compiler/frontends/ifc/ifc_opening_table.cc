@@ -96,9 +96,7 @@ void OpeningTable::AssignByPlace(const std::vector<char>& is_filling) {
     const Product& product = products_[p];
     const bool may_fill = FillsOpenings(product.kind) || product.kind == ElementKind::kCurtainWall;
     if (!may_fill || is_filling[p] != 0 || product.frame != kNoIndex || product.whole != kNoIndex) continue;
-    Eigen::AlignedBox3d box;
-    for (const ShapePart& part : product.parts) box.extend(Bounds(part.solid));
-    fillings.push_back({p, box});
+    fillings.push_back({p, product.box});
   }
   for (uint32_t o = 0; o < openings_.size(); ++o) {
     if (openings_[o].filling != kNoIndex || openings_[o].solids.empty()) continue;

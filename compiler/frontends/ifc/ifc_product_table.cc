@@ -21,6 +21,17 @@ ProductTable::ProductTable(const IfcModel& model, PlacementReader& placements, c
   }
   RelateParts();
   MergeParts();
+  for (Product& product : products_) {
+    for (const ShapePart& part : product.parts) product.box.extend(Bounds(part.solid));
+  }
+}
+
+ShapeParts ProductTable::TakeParts(uint32_t product) {
+  Product& from = products_[product];
+  if (from.frame != kNoIndex) return from.parts;
+  ShapeParts out = std::move(from.parts);
+  from.parts.resize(out.size());  // that it has some still counts
+  return out;
 }
 
 ShapeParts ProductTable::PlacedBody(uint32_t instance) {

@@ -94,8 +94,7 @@ void OpeningTable::AssignByPlace(const std::vector<char>& is_filling) {
   std::vector<FillCandidate> fillings, openings;
   for (uint32_t p = 0; p < products_.size(); ++p) {
     const Product& product = products_[p];
-    const bool may_fill = FillsOpenings(product.kind) || product.kind == ElementKind::kCurtainWall;
-    if (!may_fill || is_filling[p] != 0 || product.frame != kNoIndex || product.whole != kNoIndex) continue;
+    if (!MayFill(product.kind) || is_filling[p] != 0 || product.frame != kNoIndex || product.whole != kNoIndex) continue;
     fillings.push_back({p, product.box});
   }
   for (uint32_t o = 0; o < openings_.size(); ++o) {

@@ -15,7 +15,7 @@ struct Product {
   uint32_t instance = StepFile::kNone;
   ElementKind kind = ElementKind::kOther;
   ShapeParts parts;                // plan frame
-  Eigen::AlignedBox3d box;         // of the parts
+  Eigen::AlignedBox3d box;         // of the parts, for what may fill an opening; once they are taken
   uint32_t whole = kNoIndex;       // product that it is a part of, if both become one element
   uint32_t frame = kNoIndex;       // for a door or window among the parts of a curtain wall or wall: that product
   std::vector<uint32_t> fillings;  // the products of which it is the frame
@@ -24,6 +24,9 @@ struct Product {
 
 [[nodiscard]] inline bool IsWallLike(ElementKind kind) { return kind == ElementKind::kWall || kind == ElementKind::kCurtainWall; }
 [[nodiscard]] inline bool FillsOpenings(ElementKind kind) { return kind == ElementKind::kDoor || kind == ElementKind::kWindow; }
+
+// Also where the file does not say so, by its place.
+[[nodiscard]] inline bool MayFill(ElementKind kind) { return FillsOpenings(kind) || kind == ElementKind::kCurtainWall; }
 
 class ProductTable {
  public:

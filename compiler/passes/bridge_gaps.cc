@@ -9,6 +9,7 @@
 #include <numeric>
 #include <set>
 
+#include "compiler/passes/face_locator.h"
 #include "compiler/passes/polygon.h"
 
 namespace plumb::compiler {

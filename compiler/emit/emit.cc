@@ -13,12 +13,12 @@ constexpr double kFar_m = 1000;
 // Finds vertices by their bits: a hash table of positions in the vector, with open addresses.
 class VertexTable {
  public:
-  explicit VertexTable(std::vector<Eigen::Vector3f>& vertices) : vertices_(vertices), slots_(1024, kEmpty) {}
+  VertexTable(std::vector<Eigen::Vector3f>& vertices, size_t max_vertices)
+      : vertices_(vertices), slots_(std::bit_ceil(2 * max_vertices + 1), kEmpty) {}
 
   // Position of `v`, which is added if it is new. -0 and 0 are one point.
   uint32_t FindOrAdd(Eigen::Vector3f v) {
     v += Eigen::Vector3f::Zero();
-    if (2 * vertices_.size() >= slots_.size()) Grow();
     uint32_t& slot = slots_[SlotOf(v)];
     if (slot == kEmpty) {
       slot = static_cast<uint32_t>(vertices_.size());
@@ -37,11 +37,6 @@ class VertexTable {
     size_t at = hash & (slots_.size() - 1);
     while (slots_[at] != kEmpty && vertices_[slots_[at]] != v) at = (at + 1) & (slots_.size() - 1);
     return at;
-  }
-
-  void Grow() {
-    slots_.assign(2 * slots_.size(), kEmpty);
-    for (uint32_t i = 0; i < vertices_.size(); ++i) slots_[SlotOf(vertices_[i])] = i;
   }
 
   std::vector<Eigen::Vector3f>& vertices_;
@@ -102,7 +97,7 @@ void EmitMesh(const PlanIr& plan, AGraph& graph) {
   }
   graph.mesh.vertices.reserve(vertices);
   graph.mesh.triangles.reserve(triangles);
-  VertexTable table(graph.mesh.vertices);
+  VertexTable table(graph.mesh.vertices, vertices);
   std::vector<uint32_t> index;
   for (uint32_t e = 0; e < plan.elements.size(); ++e) {
     const Solid& body = plan.elements[e].body;

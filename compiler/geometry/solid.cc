@@ -1,10 +1,10 @@
 #include "compiler/geometry/solid.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
-#include <tuple>
 #include <utility>
 
 namespace plumb::compiler {
@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3i;
 
-int64_t Cell(double x) { return static_cast<int64_t>(std::floor(std::clamp(x, -1e15, 1e15))); }
+int64_t CellOf(double x) { return static_cast<int64_t>(std::floor(std::clamp(x, -1e15, 1e15))); }
 
 uint64_t CellKey(int64_t x, int64_t y, int64_t z) {
   const auto mix = [](int64_t v, uint64_t k) { return static_cast<uint64_t>(v) * k; };
@@ -28,17 +28,29 @@ struct Side {
   bool forward;  // the triangle runs from low to high
 };
 
+// By low, high and triangle. O(n) for solids whose corners have few triangles each.
 std::vector<Side> SortedSides(const Solid& solid) {
-  std::vector<Side> sides;
-  sides.reserve(3 * solid.triangles.size());
-  for (size_t t = 0; t < solid.triangles.size(); ++t) {
-    for (int k = 0; k < 3; ++k) {
-      const int a = solid.triangles[t][k], b = solid.triangles[t][(k + 1) % 3];
-      sides.push_back({std::min(a, b), std::max(a, b), static_cast<int>(t), a < b});
+  std::vector<uint32_t> end_of(solid.vertices.size() + 1, 0);  // in the result, by the vertex `low`
+  const auto for_each = [&solid](const auto& visit) {
+    for (size_t t = 0; t < solid.triangles.size(); ++t) {
+      for (int k = 0; k < 3; ++k) {
+        const int a = solid.triangles[t][k], b = solid.triangles[t][(k + 1) % 3];
+        visit(Side{std::min(a, b), std::max(a, b), static_cast<int>(t), a < b});
+      }
     }
+  };
+  for_each([&](const Side& side) { ++end_of[static_cast<size_t>(side.low) + 1]; });
+  std::partial_sum(end_of.begin(), end_of.end(), end_of.begin());
+  std::vector<Side> sides(3 * solid.triangles.size());
+  for_each([&](const Side& side) { sides[end_of[static_cast<size_t>(side.low)]++] = side; });
+  auto first = sides.begin();
+  for (const uint32_t end : end_of) {
+    const auto last = sides.begin() + end;
+    if (last - first > 1) {
+      std::sort(first, last, [](const Side& a, const Side& b) { return a.high != b.high ? a.high < b.high : a.triangle < b.triangle; });
+    }
+    first = last;
   }
-  std::sort(sides.begin(), sides.end(),
-            [](const Side& a, const Side& b) { return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle); });
   return sides;
 }
 
@@ -53,19 +65,33 @@ void ForEachEdge(const std::vector<Side>& sides, Visit visit) {
   }
 }
 
+bool IsClosed(const std::vector<Side>& sides) {
+  bool closed = true;
+  ForEachEdge(sides, [&](size_t i, size_t j) {
+    const auto forward = std::count_if(sides.begin() + static_cast<std::ptrdiff_t>(i), sides.begin() + static_cast<std::ptrdiff_t>(j),
+                                       [](const Side& s) { return s.forward; });
+    closed &= 2 * static_cast<size_t>(forward) == j - i;
+  });
+  return closed;
+}
+
 // Turns triangles so that neighbours across edges of two triangles run against each other.
-void MakeConsistent(Solid& solid) {
-  const std::vector<Side> sides = SortedSides(solid);
-  struct Link {
-    int to;
-    bool same_direction;
+void MakeConsistent(const std::vector<Side>& sides, Solid& solid) {
+  struct Links {
+    int count = 0;
+    std::array<int, 3> to;
+    std::array<bool, 3> same_direction;
+    void Add(int triangle, bool same) {
+      to[static_cast<size_t>(count)] = triangle;
+      same_direction[static_cast<size_t>(count++)] = same;
+    }
   };
-  std::vector<std::vector<Link>> links(solid.triangles.size());
+  std::vector<Links> links(solid.triangles.size());
   ForEachEdge(sides, [&](size_t i, size_t j) {
     if (j - i != 2) return;
     const bool same = sides[i].forward == sides[i + 1].forward;
-    links[static_cast<size_t>(sides[i].triangle)].push_back({sides[i + 1].triangle, same});
-    links[static_cast<size_t>(sides[i + 1].triangle)].push_back({sides[i].triangle, same});
+    links[static_cast<size_t>(sides[i].triangle)].Add(sides[i + 1].triangle, same);
+    links[static_cast<size_t>(sides[i + 1].triangle)].Add(sides[i].triangle, same);
   });
   enum : char { kUnseen, kKeep, kTurn };
   std::vector<char> state(solid.triangles.size(), kUnseen);
@@ -77,11 +103,11 @@ void MakeConsistent(Solid& solid) {
     while (!stack.empty()) {
       const auto t = static_cast<size_t>(stack.back());
       stack.pop_back();
-      for (const Link& link : links[t]) {
-        char& other = state[static_cast<size_t>(link.to)];
+      for (size_t k = 0; k < static_cast<size_t>(links[t].count); ++k) {
+        char& other = state[static_cast<size_t>(links[t].to[k])];
         if (other != kUnseen) continue;
-        other = link.same_direction == (state[t] == kKeep) ? kTurn : kKeep;
-        stack.push_back(link.to);
+        other = links[t].same_direction[k] == (state[t] == kKeep) ? kTurn : kKeep;
+        stack.push_back(links[t].to[k]);
       }
     }
   }
@@ -94,13 +120,13 @@ const Vector3d& Corner(const Solid& solid, const Vector3i& t, int k) { return so
 
 }  // namespace
 
-VertexWelder::VertexWelder(double tolerance_m) : tolerance_m_(tolerance_m), cell_m_(16 * tolerance_m) {}
+VertexWelder::VertexWelder(double tolerance_m) : tolerance_m_(tolerance_m), cell_m_(16 * tolerance_m), cells_(32) {}
 
 int VertexWelder::FindOrAdd(const Vector3d& p) {
   const Vector3d low = (p.array() - tolerance_m_) / cell_m_, high = (p.array() + tolerance_m_) / cell_m_;
-  for (int64_t x = Cell(low.x()); x <= Cell(high.x()); ++x) {
-    for (int64_t y = Cell(low.y()); y <= Cell(high.y()); ++y) {
-      for (int64_t z = Cell(low.z()); z <= Cell(high.z()); ++z) {
+  for (int64_t x = CellOf(low.x()); x <= CellOf(high.x()); ++x) {
+    for (int64_t y = CellOf(low.y()); y <= CellOf(high.y()); ++y) {
+      for (int64_t z = CellOf(low.z()); z <= CellOf(high.z()); ++z) {
         const int found = FindInCell(CellKey(x, y, z), p);
         if (found >= 0) return found;
       }
@@ -108,19 +134,35 @@ int VertexWelder::FindOrAdd(const Vector3d& p) {
   }
   const int index = static_cast<int>(points_.size());
   points_.push_back(p);
-  int& head = heads_.try_emplace(CellKey(Cell(p.x() / cell_m_), Cell(p.y() / cell_m_), Cell(p.z() / cell_m_)), -1).first->second;
-  next_.push_back(head);
-  head = index;
+  if (2 * used_cells_ >= cells_.size()) Grow();
+  const uint64_t key = CellKey(CellOf(p.x() / cell_m_), CellOf(p.y() / cell_m_), CellOf(p.z() / cell_m_));
+  HashCell& cell = cells_[SlotOf(key)];
+  if (cell.head < 0) ++used_cells_;
+  next_.push_back(cell.head);
+  cell = {key, index};
   return index;
 }
 
 int VertexWelder::FindInCell(uint64_t key, const Vector3d& p) const {
-  const auto it = heads_.find(key);
-  if (it == heads_.end()) return -1;
-  for (int i = it->second; i >= 0; i = next_[static_cast<size_t>(i)]) {
+  for (int i = cells_[SlotOf(key)].head; i >= 0; i = next_[static_cast<size_t>(i)]) {
     if ((points_[static_cast<size_t>(i)] - p).squaredNorm() <= tolerance_m_ * tolerance_m_) return i;
   }
   return -1;
+}
+
+size_t VertexWelder::SlotOf(uint64_t key) const {
+  const size_t mask = cells_.size() - 1;
+  size_t at = key & mask;
+  while (cells_[at].head >= 0 && cells_[at].key != key) at = (at + 1) & mask;
+  return at;
+}
+
+void VertexWelder::Grow() {
+  std::vector<HashCell> old(2 * cells_.size());
+  old.swap(cells_);
+  for (const HashCell& cell : old) {
+    if (cell.head >= 0) cells_[SlotOf(cell.key)] = cell;
+  }
 }
 
 double Volume(const Solid& solid) {
@@ -150,17 +192,7 @@ Eigen::AlignedBox3d Bounds(const Solid& solid) {
   return box;
 }
 
-bool IsClosed(const Solid& solid) {
-  if (solid.empty()) return false;
-  bool closed = true;
-  const std::vector<Side> sides = SortedSides(solid);
-  ForEachEdge(sides, [&](size_t i, size_t j) {
-    const auto forward = std::count_if(sides.begin() + static_cast<std::ptrdiff_t>(i), sides.begin() + static_cast<std::ptrdiff_t>(j),
-                                       [](const Side& s) { return s.forward; });
-    closed &= 2 * static_cast<size_t>(forward) == j - i;
-  });
-  return closed;
-}
+bool IsClosed(const Solid& solid) { return !solid.empty() && IsClosed(SortedSides(solid)); }
 
 void TransformSolid(const Eigen::Affine3d& T_out_in, Solid& solid) {
   for (Vector3d& v : solid.vertices) v = T_out_in * v;
@@ -178,6 +210,13 @@ void AppendSolid(const Solid& from, Solid& into) {
   // Not reserved to the last triangle: many small solids would each move all that is there.
   into.triangles.insert(into.triangles.end(), from.triangles.begin(), from.triangles.end());
   for (size_t i = first; i < into.triangles.size(); ++i) into.triangles[i].array() += base;
+}
+
+void AppendSolid(Solid&& from, Solid& into) {
+  if (into.vertices.empty() && into.triangles.empty())
+    into = std::move(from);
+  else
+    AppendSolid(std::as_const(from), into);
 }
 
 void WeldSolid(double tolerance_m, Solid& solid) {
@@ -198,17 +237,19 @@ void WeldSolid(double tolerance_m, Solid& solid) {
 }
 
 void OrientOutward(Solid& solid) {
-  if (!IsClosed(solid)) {
-    MakeConsistent(solid);
-    // Each piece was turned to an orientation of its own.
-    Solid turned;
-    for (Solid& piece : ConnectedPieces(solid)) {
-      if (Volume(piece) < 0) FlipSolid(piece);
-      AppendSolid(piece, turned);
-    }
-    solid = std::move(turned);
-  } else if (Volume(solid) < 0) {
-    FlipSolid(solid);
+  if (solid.empty()) return;
+  const std::vector<Side> sides = SortedSides(solid);
+  if (IsClosed(sides)) {
+    if (Volume(solid) < 0) FlipSolid(solid);
+    return;
+  }
+  MakeConsistent(sides, solid);
+  // Each piece was turned to an orientation of its own.
+  std::vector<Solid> pieces = ConnectedPieces(solid);
+  solid = {};
+  for (Solid& piece : pieces) {
+    if (Volume(piece) < 0) FlipSolid(piece);
+    AppendSolid(std::move(piece), solid);
   }
 }
 

@@ -4,7 +4,6 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstdint>
-#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -29,6 +28,7 @@ struct Solid {
 // Mirroring maps keep the normals outward: the triangles are turned.
 void TransformSolid(const Eigen::Affine3d& T_out_in, Solid& solid);
 void AppendSolid(const Solid& from, Solid& into);
+void AppendSolid(Solid&& from, Solid& into);  // without a copy where `into` is empty
 void FlipSolid(Solid& solid);
 
 // Finds an earlier point within a tolerance by hashing points to cells much larger than it; only points near a cell's border are looked up
@@ -40,12 +40,19 @@ class VertexWelder {
   [[nodiscard]] std::vector<Eigen::Vector3d> Take() { return std::move(points_); }  // by number
 
  private:
+  struct HashCell {
+    uint64_t key = 0;
+    int head = -1;  // its last point; none: the slot is empty
+  };
   [[nodiscard]] int FindInCell(uint64_t key, const Eigen::Vector3d& p) const;
+  [[nodiscard]] size_t SlotOf(uint64_t key) const;
+  void Grow();
 
   double tolerance_m_, cell_m_;
   std::vector<Eigen::Vector3d> points_;
   std::vector<int> next_;  // in the same cell
-  std::unordered_map<uint64_t, int> heads_;
+  std::vector<HashCell> cells_;  // a hash table with open addresses; their number is a power of two
+  size_t used_cells_ = 0;
 };
 
 // Makes vertices closer than `tolerance_m` one, drops triangles that lose a corner by it and vertices that no triangle uses.

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <set>
 
+#include "compiler/passes/face_locator.h"
 #include "compiler/passes/polygon.h"
 
 namespace plumb::compiler {
@@ -20,12 +21,18 @@ struct Corner {
   uint32_t footprint, ring;
 };
 
+// Rings drawn several times count once: no gap leads from one to the other, and gaps to a third are the same.
 std::vector<Corner> CornersOf(const Floor& floor) {
+  const auto less = [](const Ring& a, const Ring& b) {
+    return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end(), LexicographicallyLess);
+  };
+  std::set<Ring, decltype(less)> known(less);
   std::vector<Corner> out;
   uint32_t ring_number = 0;
   for (uint32_t f = 0; f < floor.footprints.size(); ++f) {
     if (!floor.footprints[f].bounds_rooms) continue;
     for (const Ring& ring : floor.footprints[f].rings) {
+      if (!known.insert(ring).second) continue;
       for (size_t i = 0; i < ring.size(); ++i) out.push_back({ring[i], ring[(i + 1) % ring.size()], f, ring_number});
       ++ring_number;
     }

@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "compiler/passes/face_locator.h"
 #include "compiler/passes/polygon.h"
 #include "compiler/passes/section.h"
 

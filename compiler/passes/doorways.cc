@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "compiler/passes/planar_map.h"
+#include "compiler/passes/face_locator.h"
 #include "compiler/passes/polygon.h"
 
 namespace plumb::compiler {

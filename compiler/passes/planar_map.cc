@@ -13,6 +13,8 @@
 #include <map>
 #include <set>
 
+#include "compiler/passes/face_locator.h"
+#include "compiler/passes/floor_outlines.h"
 #include "compiler/passes/polygon.h"
 #include "compiler/passes/snap.h"
 
@@ -20,7 +22,7 @@ namespace plumb::compiler {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
-using Traits = CGAL::Arr_consolidated_curve_data_traits_2<CGAL::Arr_segment_traits_2<Kernel>, uint32_t>;  // data: index of the SnapSegment
+using Traits = CGAL::Arr_consolidated_curve_data_traits_2<CGAL::Arr_segment_traits_2<Kernel>, uint32_t>;  // data: number of the run
 
 // Winding number per outline: of footprints by their index, then of dividers. Those with 0 are left out.
 using Windings = std::map<uint32_t, int>;
@@ -35,36 +37,10 @@ struct FaceLabel {
 using Arrangement = CGAL::Arrangement_2<Traits, CGAL::Arr_extended_dcel<Traits, uint32_t, char, FaceLabel>>;
 using Halfedge = Arrangement::Halfedge_const_handle;
 
-SnapGraph OutlinesOf(const Floor& floor) {
-  SnapGraph graph;
-  const auto append = [&graph](const std::vector<Ring>& rings, size_t outline) {
-    for (const Ring& ring : rings) {
-      const auto first = static_cast<uint32_t>(graph.vertices.size()), size = static_cast<uint32_t>(ring.size());
-      graph.vertices.insert(graph.vertices.end(), ring.begin(), ring.end());
-      for (uint32_t i = 0; i < size; ++i) graph.segments.push_back({first + i, first + (i + 1) % size, static_cast<uint32_t>(outline)});
-    }
-  };
-  for (size_t f = 0; f < floor.footprints.size(); ++f) {
-    if (floor.footprints[f].bounds_rooms) append(floor.footprints[f].rings, f);
-  }
-  for (size_t d = 0; d < floor.dividers.size(); ++d) append(floor.dividers[d].rings, floor.footprints.size() + d);
-  const auto append_line = [&graph](const Eigen::Vector2d& a, const Eigen::Vector2d& b, size_t outline) {
-    const auto from = static_cast<uint32_t>(graph.vertices.size());
-    graph.vertices.insert(graph.vertices.end(), {a, b});
-    graph.segments.push_back({from, from + 1, static_cast<uint32_t>(outline)});
-  };
-  const size_t first_bridge = floor.footprints.size() + floor.dividers.size();
-  for (size_t b = 0; b < floor.bridges.size(); ++b) append_line(floor.bridges[b].from, floor.bridges[b].to, first_bridge + b);
-  for (const Divider& d : floor.dividers) {
-    for (const auto& [from, to] : d.spokes) append_line(from, to, first_bridge + floor.bridges.size());
-  }
-  return graph;
-}
-
 class MapBuilder {
  public:
   MapBuilder(Floor& floor, const PlanarMapOptions& options)
-      : floor_(floor), options_(options), graph_(Snap(OutlinesOf(floor), options.snap_radius_m)) {}
+      : floor_(floor), options_(options), numbers_(floor), graph_(Snap(OutlinesOf(floor), options.snap_radius_m)) {}
 
   void Run() {
     Insert();
@@ -76,15 +52,30 @@ class MapBuilder {
   }
 
  private:
+  // Segments over each other make one curve: to find out in exact arithmetic that they are the same takes most of the time otherwise.
   void Insert() {
-    std::vector<Traits::Curve_2> curves;
-    const auto point = [this](uint32_t v) { return Kernel::Point_2(graph_.vertices[v].x(), graph_.vertices[v].y()); };
+    const auto less = [this](uint32_t a, uint32_t b) { return LexicographicallyLess(graph_.vertices[a], graph_.vertices[b]); };
+    std::map<std::pair<uint32_t, uint32_t>, std::vector<uint32_t>> runs;
     for (uint32_t i = 0; i < graph_.segments.size(); ++i) {
       const SnapSegment& s = graph_.segments[i];
       if (graph_.vertices[s.from] == graph_.vertices[s.to]) continue;
-      curves.emplace_back(Kernel::Segment_2(point(s.from), point(s.to)), i);
+      runs[less(s.from, s.to) ? std::pair(s.from, s.to) : std::pair(s.to, s.from)].push_back(i);
+    }
+    std::vector<Kernel::Point_2> points;
+    for (const Eigen::Vector2d& v : graph_.vertices) points.emplace_back(v.x(), v.y());
+    std::vector<Traits::X_monotone_curve_2> curves;
+    for (auto& [ends, segments] : runs) {
+      curves.emplace_back(CGAL::Arr_segment_traits_2<Kernel>::X_monotone_curve_2(points[ends.first], points[ends.second]), static_cast<uint32_t>(runs_.size()));
+      runs_.push_back(std::move(segments));
     }
     CGAL::insert(arrangement_, curves.begin(), curves.end());
+  }
+
+  template <class Visit>
+  void ForEachSegment(Halfedge edge, const Visit& visit) const {
+    for (const uint32_t run : edge->curve().data()) {
+      for (const uint32_t i : runs_[run]) visit(graph_.segments[i]);
+    }
   }
 
   // Edges with the same face on both sides bound nothing.
@@ -105,12 +96,11 @@ class MapBuilder {
   Windings StepOver(Halfedge edge) const {
     Windings out;
     const bool edge_forward = edge->direction() == CGAL::ARR_LEFT_TO_RIGHT;
-    for (const uint32_t i : edge->curve().data()) {
-      const SnapSegment& s = graph_.segments[i];
-      if (s.footprint >= FirstBridge()) continue;
+    ForEachSegment(edge, [&](const SnapSegment& s) {
+      if (!numbers_.Encloses(s.footprint)) return;
       const bool forward = LexicographicallyLess(graph_.vertices[s.from], graph_.vertices[s.to]);
       out[s.footprint] += forward == edge_forward ? 1 : -1;
-    }
+    });
     return out;
   }
 
@@ -144,18 +134,15 @@ class MapBuilder {
     }
   }
 
-  // Outlines are numbered: footprints, dividers, bridges, and one number for all spokes.
-  uint32_t FirstBridge() const { return static_cast<uint32_t>(floor_.footprints.size() + floor_.dividers.size()); }
-  bool IsBridge(uint32_t outline) const { return outline >= FirstBridge() && outline < FirstBridge() + floor_.bridges.size(); }
-  bool IsDivider(uint32_t outline) const { return outline >= floor_.footprints.size() && !IsBridge(outline); }  // or a spoke of one
   bool IsFree(Arrangement::Face_const_handle f) const {
     const Windings& windings = f->data().windings;
-    return !f->is_unbounded() && (windings.empty() || IsDivider(windings.begin()->first));
+    return !f->is_unbounded() && (windings.empty() || numbers_.IsDivider(windings.begin()->first));
   }
   // No wall's outline and no bridge runs here.
   bool IsVirtual(Halfedge edge) const {
-    return std::all_of(edge->curve().data().begin(), edge->curve().data().end(),
-                       [this](uint32_t i) { return IsDivider(graph_.segments[i].footprint); });
+    bool is_virtual = true;
+    ForEachSegment(edge, [&](const SnapSegment& s) { is_virtual &= numbers_.IsDivider(s.footprint); });
+    return is_virtual;
   }
 
   static double AreaOf(Arrangement::Face_handle face) {
@@ -208,7 +195,7 @@ class MapBuilder {
     std::map<std::pair<uint32_t, uint32_t>, double> area;  // by divider and region
     for (auto f = arrangement_.faces_begin(); f != arrangement_.faces_end(); ++f) {
       for (const auto& [outline, winding] : f->data().windings) {
-        if (IsFree(f) && IsDivider(outline)) area[{outline, f->data().region}] += AreaOf(f);
+        if (IsFree(f) && numbers_.IsDivider(outline)) area[{outline, f->data().region}] += AreaOf(f);
       }
     }
     std::map<uint32_t, std::pair<double, uint32_t>> home;  // divider to area and region
@@ -264,13 +251,12 @@ class MapBuilder {
       b.from = edge->source()->data();
       b.to = edge->target()->data();
       b.face = edge->twin()->face()->data().index;
-      for (const uint32_t i : edge->curve().data()) {
-        const uint32_t outline = graph_.segments[i].footprint;
-        if (IsBridge(outline))
-          b.bridge = std::min(b.bridge, outline - FirstBridge());
-        else if (!IsDivider(outline))
-          b.footprints.push_back(outline);
-      }
+      ForEachSegment(edge, [&](const SnapSegment& s) {
+        if (numbers_.IsBridge(s.footprint))
+          b.bridge = std::min(b.bridge, s.footprint - numbers_.first_bridge());
+        else if (!numbers_.IsDivider(s.footprint))
+          b.footprints.push_back(s.footprint);
+      });
       if (!b.footprints.empty()) b.bridge = kNoIndex;
       if (b.bridge != kNoIndex) b.footprints = {floor_.bridges[b.bridge].footprint_a, floor_.bridges[b.bridge].footprint_b};
       std::sort(b.footprints.begin(), b.footprints.end());
@@ -305,7 +291,7 @@ class MapBuilder {
     for (const auto& [least, f] : keyed) {
       FloorFace face;
       for (const auto& [outline, winding] : f->data().windings) {
-        if (!IsDivider(outline)) face.cover.push_back(outline);
+        if (!numbers_.IsDivider(outline)) face.cover.push_back(outline);
       }
       if (f->data().space != kNoIndex) face.space = floor_.dividers[f->data().space - floor_.footprints.size()].space;
       if (!f->is_unbounded()) face.outer = Boundary(f->outer_ccb());
@@ -321,7 +307,9 @@ class MapBuilder {
 
   Floor& floor_;
   const PlanarMapOptions& options_;
+  OutlineNumbers numbers_;
   SnapGraph graph_;
+  std::vector<std::vector<uint32_t>> runs_;  // segments of the graph that lie over each other: the data of the curves
   Arrangement arrangement_;
 };
 
@@ -341,33 +329,6 @@ Expected<void> BuildPlanarMap(Floor& floor, const PlanarMapOptions& options) {
     return Fail(ErrorCode::kInternal, fmt::format("the arrangement of the level at {:.3f} m failed: {}", floor.level.base_z_m, e.what()));
   }
   return {};
-}
-
-std::vector<Ring> FaceRings(const Floor& floor, const FloorFace& face) {
-  std::vector<Ring> out;
-  const auto append = [&](const std::vector<BoundaryEdge>& edges) {
-    Ring ring;
-    for (const BoundaryEdge& e : edges) ring.push_back(floor.vertices[e.from]);
-    out.push_back(std::move(ring));
-  };
-  if (face.bounded()) append(face.outer);
-  for (const auto& hole : face.holes) append(hole);
-  return out;
-}
-
-FaceLocator::FaceLocator(const Floor& floor) {
-  for (size_t i = 1; i < floor.faces.size(); ++i) {
-    std::vector<Ring> rings = FaceRings(floor, floor.faces[i]);
-    const Eigen::AlignedBox2d box = BoundingBox(rings);
-    entries_.push_back({std::move(rings), box});
-  }
-}
-
-uint32_t FaceLocator::FaceAt(const Eigen::Vector2d& p) const {
-  for (size_t i = 0; i < entries_.size(); ++i) {
-    if (entries_[i].box.contains(p) && WindingNumber(entries_[i].rings, p) != 0) return static_cast<uint32_t>(i + 1);
-  }
-  return 0;
 }
 
 }  // namespace plumb::compiler

@@ -1,9 +1,7 @@
 // Pass PlanIr -> FloorIr, second half: the footprints of a level as a clean planar map (exact arrangement of their outlines).
 #pragma once
 
-#include <Eigen/Geometry>
 #include <string>
-#include <vector>
 
 #include "compiler/ir/floor_ir.h"
 #include "schema/error.h"
@@ -21,23 +19,5 @@ struct PlanarMapOptions {
 // lexicographic order, faces in the order of their outer boundaries: the order of the footprints does not matter. Dividers cover nothing:
 // they only divide the free region that holds most of each. Errors: kInternal.
 [[nodiscard]] Expected<void> BuildPlanarMap(Floor& floor, const PlanarMapOptions& options);
-
-// Boundaries of a face as rings: the outer one first, then its holes.
-[[nodiscard]] std::vector<Ring> FaceRings(const Floor& floor, const FloorFace& face);
-
-// Which face holds a point. Keeps its own copy of the rings.
-class FaceLocator {
- public:
-  explicit FaceLocator(const Floor& floor);
-  // On an edge: either side. 0 is the unbounded face. O(faces + edges of those whose box holds `p`).
-  [[nodiscard]] uint32_t FaceAt(const Eigen::Vector2d& p) const;
-
- private:
-  struct Entry {
-    std::vector<Ring> rings;
-    Eigen::AlignedBox2d box;
-  };
-  std::vector<Entry> entries_;  // of faces 1, 2, ...
-};
 
 }  // namespace plumb::compiler

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "compiler/passes/planar_map.h"
+#include "compiler/passes/face_locator.h"
 #include "compiler/passes/polygon.h"
 #include "compiler/passes/vertical_probe.h"
 

@@ -9,36 +9,52 @@
 namespace plumb::compiler {
 namespace {
 
+constexpr double kSlack = 1e-9;  // rays through the seam of two triangles must not slip between them
+
 // Height of the triangle over `p`; none beside it and for upright triangles.
 std::optional<double> HeightAt(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, const Eigen::Vector2d& p) {
   const Eigen::Vector2d u = (b - a).head<2>(), v = (c - a).head<2>(), w = p - a.head<2>();
   const double det = Cross(u, v);
   if (std::abs(det) < 1e-12) return std::nullopt;
   const double s = Cross(w, v) / det, t = Cross(u, w) / det;
-  constexpr double kSlack = 1e-9;  // rays through the seam of two triangles must not slip between them
   if (s < -kSlack || t < -kSlack || s + t > 1 + kSlack) return std::nullopt;
   return a.z() + s * (b.z() - a.z()) + t * (c.z() - a.z());
+}
+
+const Eigen::Vector3d& CornerOf(const Solid& solid, uint32_t triangle, int k) {
+  return solid.vertices[static_cast<size_t>(solid.triangles[triangle][k])];
+}
+
+// By the slack that HeightAt allows, of the box's size, on each side.
+Eigen::AlignedBox2d Grown(Eigen::AlignedBox2d box) {
+  const Eigen::Vector2d margin = 4 * kSlack * box.sizes();
+  box.min() -= margin;
+  box.max() += margin;
+  return box;
 }
 
 }  // namespace
 
 VerticalProbe::VerticalProbe(const PlanIr& plan, std::initializer_list<ElementKind> kinds) {
+  std::vector<Eigen::AlignedBox2d> boxes;
   for (const PlanElement& e : plan.elements) {
-    if (std::find(kinds.begin(), kinds.end(), e.kind) == kinds.end() || e.body.empty()) continue;
-    targets_.push_back({&e.body, Bounds(e.body)});
+    if (std::find(kinds.begin(), kinds.end(), e.kind) == kinds.end()) continue;
+    for (uint32_t t = 0; t < e.body.triangles.size(); ++t) {
+      Eigen::AlignedBox2d box;
+      for (int k = 0; k < 3; ++k) box.extend(CornerOf(e.body, t, k).head<2>());
+      targets_.push_back({&e.body, t});
+      boxes.push_back(Grown(box));
+    }
   }
+  tree_ = BoxTree<2>(std::move(boxes));
 }
 
 template <class Visit>
 void VerticalProbe::ForEachHit(const Eigen::Vector2d& p, const Visit& visit) const {
-  for (const Target& target : targets_) {
-    if ((p.array() < target.box.min().head<2>().array()).any() || (p.array() > target.box.max().head<2>().array()).any()) continue;
-    const auto& v = target.solid->vertices;
-    for (const Eigen::Vector3i& t : target.solid->triangles) {
-      const auto z = HeightAt(v[static_cast<size_t>(t[0])], v[static_cast<size_t>(t[1])], v[static_cast<size_t>(t[2])], p);
-      if (z) visit(*z);
-    }
-  }
+  tree_.ForEachIn(Eigen::AlignedBox2d(p), [&](uint32_t i) {
+    const auto& [solid, t] = targets_[i];
+    if (const auto z = HeightAt(CornerOf(*solid, t, 0), CornerOf(*solid, t, 1), CornerOf(*solid, t, 2), p)) visit(*z);
+  });
 }
 
 std::optional<double> VerticalProbe::Above(const Eigen::Vector2d& p, double z_m) const {

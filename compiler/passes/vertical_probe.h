@@ -2,15 +2,17 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cstdint>
 #include <initializer_list>
 #include <optional>
 #include <vector>
 
+#include "compiler/geometry/box_tree.h"
 #include "compiler/ir/plan_ir.h"
 
 namespace plumb::compiler {
 
-// Holds on to the plan. Rays cost O(elements + triangles of the elements at that place).
+// Holds on to the plan. Rays cost O(log triangles + triangles at that place).
 class VerticalProbe {
  public:
   VerticalProbe(const PlanIr& plan, std::initializer_list<ElementKind> kinds);
@@ -22,12 +24,13 @@ class VerticalProbe {
  private:
   struct Target {
     const Solid* solid;
-    Eigen::AlignedBox3d box;
+    uint32_t triangle;
   };
   template <class Visit>
   void ForEachHit(const Eigen::Vector2d& p, const Visit& visit) const;
 
   std::vector<Target> targets_;
+  BoxTree<2> tree_;  // of the targets, seen from above
 };
 
 }  // namespace plumb::compiler

@@ -9,6 +9,7 @@
 
 #include "compiler/emit/emit.h"
 #include "compiler/passes/build_agraph.h"
+#include "compiler/passes/face_locator.h"
 #include "compiler/passes/polygon.h"
 #include "schema/agraph_writer.h"
 #include "tests/support/plan_builder.h"

@@ -170,10 +170,10 @@ class Frontend {
           for (const ShapePart& part : products_[filling].parts) AppendSolid(part.solid, element.uncut);
         }
       }
-      ShapeParts parts = product.parts;
+      ShapeParts parts = products_.TakeParts(p);
       openings_.Cut(p, parts);
       if (IsWallLike(product.kind) && element.arcs.empty()) openings_.RestoreUncut(p, element.uncut);
-      AddElements(p, std::move(element), parts);
+      AddElements(p, std::move(element), std::move(parts));
     }
   }
 
@@ -205,9 +205,9 @@ class Frontend {
     }
   }
 
-  void AddElements(uint32_t product_index, PlanElement element, const ShapeParts& parts) {
+  void AddElements(uint32_t product_index, PlanElement element, ShapeParts parts) {
     Solid glass;
-    for (const ShapePart& part : parts) AppendSolid(part.solid, part.look == Look::kGlass ? glass : element.body);
+    for (ShapePart& part : parts) AppendSolid(std::move(part.solid), part.look == Look::kGlass ? glass : element.body);
     element_of_[product_index] = static_cast<uint32_t>(plan_.elements.size());
     if (element.body.empty() && !glass.empty()) {
       element.material = Material::kGlass;
@@ -215,16 +215,23 @@ class Frontend {
       plan_.elements.push_back(std::move(element));
       return;
     }
-    plan_.elements.push_back(element);
-    if (glass.empty()) return;
-    // So that one wall stays one element, the panes in it are windows.
-    if (IsWallLike(element.kind)) element.kind = ElementKind::kWindow;
-    element.material = Material::kGlass;
-    element.body = std::move(glass);
-    element.uncut = {};
-    element.axis.reset();
-    element.arcs.clear();
+    if (glass.empty()) {
+      plan_.elements.push_back(std::move(element));
+      return;
+    }
+    Solid body = std::move(element.body), uncut = std::move(element.uncut);
+    element.body = element.uncut = {};
+    PlanElement panes = element;
+    element.body = std::move(body);
+    element.uncut = std::move(uncut);
     plan_.elements.push_back(std::move(element));
+    // So that one wall stays one element, the panes in it are windows.
+    if (IsWallLike(panes.kind)) panes.kind = ElementKind::kWindow;
+    panes.material = Material::kGlass;
+    panes.body = std::move(glass);
+    panes.axis.reset();
+    panes.arcs.clear();
+    plan_.elements.push_back(std::move(panes));
   }
 
   void DescribeFilling(uint32_t product, PlanOpening& opening) const {
@@ -288,7 +295,7 @@ class Frontend {
       space.name = TextOf(instance, attribute::kName);
       space.long_name = TextOf(instance, attribute::kSpatialLongName);
       space.storey = StoreyOf(instance);
-      for (const ShapePart& part : products_.PlacedBody(instance)) AppendSolid(part.solid, space.body);
+      for (ShapePart& part : products_.PlacedBody(instance)) AppendSolid(std::move(part.solid), space.body);
       plan_.spaces.push_back(std::move(space));
     }
   }

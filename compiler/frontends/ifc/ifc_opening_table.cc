@@ -54,11 +54,25 @@ std::vector<Opening*> OpeningTable::Cutting(uint32_t product) {
 void OpeningTable::Cut(uint32_t product, ShapeParts& parts) {
   for (Opening* opening : Cutting(product)) {
     for (const Solid& tool : opening->solids) {
-      for (ShapePart& part : parts)
+      for (ShapePart& part : parts) {
+        if (!SpendCut(part.solid, tool, opening->instance)) return;
         opening->cuts |= CutOpening(model_, {products_[product].instance, opening->instance}, options_, tool, part.solid);
+      }
     }
   }
   std::erase_if(parts, [](const ShapePart& part) { return part.solid.empty(); });
+}
+
+// Each cut leaves more triangles to the next: thousands of openings in one wall would take hours.
+bool OpeningTable::SpendCut(const Solid& body, const Solid& tool, uint32_t opening) {
+  cut_triangles_ += body.triangles.size() + tool.triangles.size();
+  if (cut_triangles_ <= options_.max_cut_triangles) return true;
+  if (!model_.is_too_complex()) {
+    model_.Emit(DiagnosticKind::kPlanTooComplex, opening,
+                fmt::format("the openings up to {} take too long to cut out of their walls: over {} triangles, counted for each cut",
+                            model_.Label(opening), options_.max_cut_triangles));
+  }
+  return false;
 }
 
 void OpeningTable::RestoreUncut(uint32_t product, Solid& uncut) {
@@ -94,11 +108,8 @@ void OpeningTable::AssignByPlace(const std::vector<char>& is_filling) {
   std::vector<FillCandidate> fillings, openings;
   for (uint32_t p = 0; p < products_.size(); ++p) {
     const Product& product = products_[p];
-    const bool may_fill = FillsOpenings(product.kind) || product.kind == ElementKind::kCurtainWall;
-    if (!may_fill || is_filling[p] != 0 || product.frame != kNoIndex || product.whole != kNoIndex) continue;
-    Eigen::AlignedBox3d box;
-    for (const ShapePart& part : product.parts) box.extend(Bounds(part.solid));
-    fillings.push_back({p, box});
+    if (!MayFill(product.kind) || is_filling[p] != 0 || product.frame != kNoIndex || product.whole != kNoIndex) continue;
+    fillings.push_back({p, product.box});
   }
   for (uint32_t o = 0; o < openings_.size(); ++o) {
     if (openings_[o].filling != kNoIndex || openings_[o].solids.empty()) continue;

@@ -35,6 +35,8 @@ class OpeningTable {
 
  private:
   [[nodiscard]] std::vector<Opening*> Cutting(uint32_t product);
+  // False, with a PlanTooComplex diagnostic, beyond IfcOptions.max_cut_triangles.
+  [[nodiscard]] bool SpendCut(const Solid& body, const Solid& tool, uint32_t opening);
   void AssignByPlace(const std::vector<char>& is_filling);
 
   const IfcModel& model_;
@@ -42,6 +44,7 @@ class OpeningTable {
   const Relations& relations_;
   const ProductTable& products_;
   const IfcOptions& options_;
+  size_t cut_triangles_ = 0;
   std::vector<Opening> openings_;
   std::vector<std::vector<size_t>> of_product_;  // the openings that void it
 };

@@ -20,6 +20,7 @@ std::string IfcOptions::Check() const {
     if (!problem.empty()) return problem;
   }
   if (max_triangles == 0) return "IfcOptions.max_triangles = 0; must be positive";
+  if (max_cut_triangles == 0) return "IfcOptions.max_cut_triangles = 0; must be positive";
   if (max_triangles_per_element == 0) return "IfcOptions.max_triangles_per_element = 0; must be positive";
   return {};
 }

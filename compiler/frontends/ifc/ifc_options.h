@@ -17,6 +17,7 @@ struct IfcOptions {
   double far_origin_m = 1000;      // plans farther from zero than this are moved near it (PlanIr::origin)
   double fill_min_overlap = 0.5;   // a door without IfcRelFillsElement fills the opening that holds this much of its box, 0..1
   size_t max_triangles_per_element = 2000000;  // more is cut off with a diagnostic: mapped items can multiply without bound
+  size_t max_cut_triangles = 25000000;         // of bodies that openings are cut out of, counted for each cut; a plan with more is refused
   size_t max_triangles = 6000000;              // of all elements; a plan with more is refused: it would not fit into 2 GB
   // Empty if every field is valid; else names the field, its value and the rule.
   [[nodiscard]] std::string Check() const;

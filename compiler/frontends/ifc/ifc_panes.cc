@@ -48,8 +48,8 @@ void MarkPanes(const IfcOptions& options, ShapeParts& parts) {
     Solid panes, rest;
     WeldSolid(options.weld_tolerance_m, part.solid);
     for (const Solid& piece : ConnectedPieces(part.solid)) AppendSolid(piece, IsPane(piece, options) ? panes : rest);
-    if (!panes.empty()) out.push_back({std::move(panes), Look::kGlass, {}, Eigen::Affine3d::Identity()});
-    if (!rest.empty()) out.push_back({std::move(rest), part.look, {}, Eigen::Affine3d::Identity()});
+    if (!panes.empty()) out.emplace_back(std::move(panes), Look::kGlass);
+    if (!rest.empty()) out.emplace_back(std::move(rest), part.look);
   }
   parts = std::move(out);
 }

@@ -45,12 +45,17 @@ TripleStatus ReadTriple(StepValue list, Vector3d& out) {
 
 Vector3d PlacementReader::Point(const IfcInstance& point) const {
   if (!point) return Vector3d::Zero();
+  KnownPoint& known = known_points_[point.index % kKnownPoints];
+  if (known.index == point.index) return known.p;
   Vector3d p = Vector3d::Zero();
   DiagnosticKind problem = DiagnosticKind::kBadAttribute;
   if (point.type == IfcType::kIfcCartesianPoint) {
     const TripleStatus status = ReadTriple(point[attribute::kCoordinates], p);
     p *= model_.length_scale();
-    if (status == TripleStatus::kGood && IsCoordinate(p)) return p;
+    if (status == TripleStatus::kGood && IsCoordinate(p)) {
+      known = {point.index, p};
+      return p;
+    }
     if (status == TripleStatus::kNotFinite || !IsNumber(p)) problem = DiagnosticKind::kNumberNotFinite;
   }
   model_.Emit(problem, point.index,

@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <unordered_map>
+#include <vector>
 
 #include "compiler/frontends/ifc/ifc_model.h"
 
@@ -14,7 +15,7 @@ enum class TripleStatus { kGood, kBad, kNotFinite };
 
 class PlacementReader {
  public:
-  explicit PlacementReader(const IfcModel& model) : model_(model) {}
+  explicit PlacementReader(const IfcModel& model) : model_(model), known_points_(kKnownPoints) {}
 
   // Zero for what is no point; a 2D point has z = 0.
   [[nodiscard]] Eigen::Vector3d Point(const IfcInstance& point) const;
@@ -34,7 +35,15 @@ class PlacementReader {
   [[nodiscard]] Eigen::Isometry3d OwnPlacement(const IfcInstance& placement) const;
   [[nodiscard]] double Scale(const IfcInstance& op, size_t attribute_index, double fallback) const;
 
+  // The faces around a corner name it one soon after the other: points read lately, each at its index modulo their number.
+  struct KnownPoint {
+    uint32_t index = StepFile::kNone;
+    Eigen::Vector3d p = Eigen::Vector3d::Zero();
+  };
+  static constexpr uint32_t kKnownPoints = 2048;
+
   const IfcModel& model_;
+  mutable std::vector<KnownPoint> known_points_;
   std::unordered_map<uint32_t, Eigen::Isometry3d> T_plan_placement_;
 };
 

@@ -14,13 +14,26 @@ ProductTable::ProductTable(const IfcModel& model, PlacementReader& placements, c
     : model_(model), placements_(placements), styles_(styles), shapes_(shapes), relations_(relations), options_(options) {
   const ProductKinds kinds(model);
   product_of_.assign(model.size(), kNoIndex);
-  for (const uint32_t instance : kinds.Products()) {
+  const std::vector<uint32_t> instances = kinds.Products();
+  products_.reserve(instances.size());
+  for (const uint32_t instance : instances) {
     if (model.is_too_complex()) break;
     product_of_[instance] = size();
     products_.push_back(Read(instance, *kinds.Of(instance)));
   }
   RelateParts();
   MergeParts();
+}
+
+ShapeParts ProductTable::TakeParts(uint32_t product) {
+  Product& from = products_[product];
+  if (MayFill(from.kind)) {
+    for (const ShapePart& part : from.parts) from.box.extend(Bounds(part.solid));
+  }
+  if (from.frame != kNoIndex) return from.parts;
+  ShapeParts out = std::move(from.parts);
+  from.parts.resize(out.size());  // that it has some still counts
+  return out;
 }
 
 ShapeParts ProductTable::PlacedBody(uint32_t instance) {

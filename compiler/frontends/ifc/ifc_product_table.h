@@ -15,6 +15,7 @@ struct Product {
   uint32_t instance = StepFile::kNone;
   ElementKind kind = ElementKind::kOther;
   ShapeParts parts;                // plan frame
+  Eigen::AlignedBox3d box;         // of the parts, for what may fill an opening; once they are taken
   uint32_t whole = kNoIndex;       // product that it is a part of, if both become one element
   uint32_t frame = kNoIndex;       // for a door or window among the parts of a curtain wall or wall: that product
   std::vector<uint32_t> fillings;  // the products of which it is the frame
@@ -23,6 +24,9 @@ struct Product {
 
 [[nodiscard]] inline bool IsWallLike(ElementKind kind) { return kind == ElementKind::kWall || kind == ElementKind::kCurtainWall; }
 [[nodiscard]] inline bool FillsOpenings(ElementKind kind) { return kind == ElementKind::kDoor || kind == ElementKind::kWindow; }
+
+// Also where the file does not say so, by its place.
+[[nodiscard]] inline bool MayFill(ElementKind kind) { return FillsOpenings(kind) || kind == ElementKind::kCurtainWall; }
 
 class ProductTable {
  public:
@@ -33,6 +37,8 @@ class ProductTable {
 
   [[nodiscard]] uint32_t size() const { return static_cast<uint32_t>(products_.size()); }
   [[nodiscard]] const Product& operator[](uint32_t product) const { return products_[product]; }
+  // The parts of a product, whose solids the table then no longer has unless another product frames it; its box stays.
+  [[nodiscard]] ShapeParts TakeParts(uint32_t product);
   // The product that an instance became part of; kNoIndex if it is none.
   [[nodiscard]] uint32_t Root(uint32_t instance) const;
   // The body of any instance with placement and shape, in the plan frame. Beyond IfcOptions.max_triangles of all bodies together:

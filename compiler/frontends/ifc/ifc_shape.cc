@@ -30,7 +30,7 @@ size_t CountTriangles(const ShapeParts& parts) {
 
 ShapeParts OnePart(Solid solid) {
   ShapeParts parts;
-  if (!solid.empty()) parts.push_back({std::move(solid), Look::kUnstated, {}, Affine3d::Identity()});
+  if (!solid.empty()) parts.emplace_back(std::move(solid), Look::kUnstated);
   return parts;
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "compiler/passes/face_locator.h"
 #include "compiler/passes/polygon.h"
 #include "tests/support/plan_builder.h"
 #include "tests/unit/compiler/passes/build.h"
@@ -32,6 +33,13 @@ TEST(BridgeGaps, AGapThatNobodyPassesIsClosed) {
       EXPECT_EQ(e.footprints, (std::vector<uint32_t>{1, 2}));
     }
   }
+}
+
+TEST(BridgeGaps, WallsDrawnManyTimesAreBridgedOnce) {
+  const Floor once = Box(0.1);
+  Floor often = once;
+  for (int copy = 0; copy < 2000; ++copy) often.footprints.insert(often.footprints.end(), once.footprints.begin(), once.footprints.end());
+  EXPECT_EQ(FindBridges(often, 0.002, 0.2).size(), FindBridges(once, 0.002, 0.2).size());
 }
 
 TEST(BridgeGaps, APassageStaysOpen) {

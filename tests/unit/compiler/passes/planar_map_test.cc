@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "compiler/passes/face_locator.h"
 #include "compiler/passes/polygon.h"
 #include "tests/support/plan_builder.h"
 #include "tests/unit/compiler/passes/build.h"

@@ -137,6 +137,24 @@ TEST_F(HostileIfc, PlansOfTooManyTrianglesAreRefused) {
   ExpectRefused(test::IfcText(Wall() + more), DiagnosticKind::kPlanTooComplex);
 }
 
+// Every cut leaves more triangles to the next one.
+TEST_F(HostileIfc, WallsOfTooManyOpeningsAreRefused) {
+  std::string more =
+      "#60=IFCPRODUCTDEFINITIONSHAPE($,$,(#61));\n#61=IFCSHAPEREPRESENTATION($,'Body','SweptSolid',(#62));\n"
+      "#62=IFCEXTRUDEDAREASOLID(#63,$,#34,2.);\n#63=IFCRECTANGLEPROFILEDEF(.AREA.,$,$,0.01,0.3);\n";
+  for (int i = 0; i < 100; ++i) {
+    more += fmt::format(
+        "#{0}=IFCOPENINGELEMENT('hole{1:018d}',$,'o',$,$,#{2},#60,$,$);\n#{2}=IFCLOCALPLACEMENT($,#{3});\n"
+        "#{3}=IFCAXIS2PLACEMENT3D(#{4},$,$);\n#{4}=IFCCARTESIANPOINT((0.{1:02d},0.,0.5));\n"
+        "#{5}=IFCRELVOIDSELEMENT('void{1:018d}',$,$,$,#10,#{0});\n",
+        1000 + 10 * i, i, 1001 + 10 * i, 1002 + 10 * i, 1003 + 10 * i, 1004 + 10 * i);
+  }
+  options_.max_cut_triangles = 100000000;
+  EXPECT_TRUE(Read(test::IfcText(Wall() + more)));
+  options_.max_cut_triangles = 1000;
+  ExpectRefused(test::IfcText(Wall() + more), DiagnosticKind::kPlanTooComplex);
+}
+
 TEST_F(HostileIfc, MissingReferencesAreCounted) {
   std::string references;
   for (int i = 0; i < 100000; ++i) references += fmt::format("{}#{}", i > 0 ? "," : "", 1000 + i);

@@ -1,0 +1,85 @@
+// A static tree of axis-aligned boxes: finds those that meet something without looking at all. Points are boxes without extent.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <numeric>
+#include <vector>
+
+namespace plumb::compiler {
+
+// Built by splitting at the median of the longest extent: O(n log n). Deterministic.
+template <int kDimension>
+class BoxTree {
+ public:
+  using Box = Eigen::AlignedBox<double, kDimension>;
+
+  BoxTree() = default;
+  explicit BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
+    std::iota(order_.begin(), order_.end(), 0u);
+    size_t leaves = 1;
+    while (leaves * kLeaf < order_.size()) leaves *= 2;
+    nodes_.resize(2 * leaves);
+    if (!order_.empty()) Build(1, 0, order_.size());
+  }
+
+  [[nodiscard]] size_t size() const { return boxes_.size(); }
+
+  // Calls visit(i) for each box i with meets(box), and for a few others beside them, given that meets(a) implies meets(b) where b contains
+  // a. The order is fixed, but no particular one.
+  template <class Meets, class Visit>
+  void ForEach(const Meets& meets, const Visit& visit) const {
+    if (!order_.empty()) Descend(1, 0, order_.size(), meets, visit);
+  }
+
+  // Only those that have a point in common with `query`, on its border too.
+  template <class Visit>
+  void ForEachIn(const Box& query, const Visit& visit) const {
+    ForEach([&query](const Box& box) { return box.intersects(query); }, [&](uint32_t i) {
+      if (boxes_[i].intersects(query)) visit(i);
+    });
+  }
+
+ private:
+  static constexpr size_t kLeaf = 8;
+
+  // Node n holds order_[first, last); its halves are nodes 2n and 2n + 1.
+  void Build(size_t node, size_t first, size_t last) {
+    Box& bounds = nodes_[node];
+    for (size_t i = first; i < last; ++i) bounds.extend(boxes_[order_[i]]);
+    if (IsLeaf(node)) return;
+    Eigen::Index axis = 0;
+    if (!bounds.isEmpty()) bounds.sizes().maxCoeff(&axis);
+    const size_t middle = (first + last) / 2;
+    const auto place = [&](uint32_t i) { return boxes_[i].min()[axis] + boxes_[i].max()[axis]; };
+    const auto at = [this](size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
+    std::nth_element(at(first), at(middle), at(last), [&](uint32_t a, uint32_t b) {
+      const double p = place(a), q = place(b);
+      return p != q ? p < q : a < b;
+    });
+    Build(2 * node, first, middle);
+    Build(2 * node + 1, middle, last);
+  }
+
+  [[nodiscard]] bool IsLeaf(size_t node) const { return 2 * node >= nodes_.size(); }
+
+  template <class Meets, class Visit>
+  void Descend(size_t node, size_t first, size_t last, const Meets& meets, const Visit& visit) const {
+    if (!meets(nodes_[node])) return;
+    if (IsLeaf(node)) {
+      for (size_t i = first; i < last; ++i) visit(order_[i]);
+      return;
+    }
+    const size_t middle = (first + last) / 2;
+    Descend(2 * node, first, middle, meets, visit);
+    Descend(2 * node + 1, middle, last, meets, visit);
+  }
+
+  std::vector<Box> boxes_;
+  std::vector<uint32_t> order_;
+  std::vector<Box> nodes_;  // from 1 on
+};
+
+}  // namespace plumb::compiler

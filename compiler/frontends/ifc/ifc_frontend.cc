@@ -154,7 +154,7 @@ class Frontend {
     for (uint32_t p = 0; p < products_.size(); ++p) {
       const Product& product = products_[p];
       if (product.whole != kNoIndex) continue;
-      if (product.parts.empty() && !FillsOpenings(product.kind)) {
+      if (product.parts.empty() && !FillsOpenings(product.kind) && !IsMadeOfFillings(product)) {
         ReportNoBody(product);
         continue;
       }
@@ -175,6 +175,12 @@ class Frontend {
       if (IsWallLike(product.kind) && element.arcs.empty()) openings_.RestoreUncut(p, element.uncut);
       AddElements(p, std::move(element), parts);
     }
+  }
+
+  // A shop front that is nothing but its doors.
+  bool IsMadeOfFillings(const Product& product) const {
+    return product.kind == ElementKind::kCurtainWall &&
+           std::any_of(product.fillings.begin(), product.fillings.end(), [&](uint32_t f) { return !products_[f].parts.empty(); });
   }
 
   bool HasUncut(uint32_t p) const {
@@ -199,7 +205,7 @@ class Frontend {
   }
 
   void ReportNoBody(const Product& product) const {
-    if (product.kind == ElementKind::kWall) {
+    if (IsWallLike(product.kind)) {
       model_.Emit(DiagnosticKind::kWallWithoutBody, product.instance,
                   fmt::format("{} has no body that can be read; it is left out", model_.Label(product.instance)));
     }
@@ -230,6 +236,7 @@ class Frontend {
   void DescribeFilling(uint32_t product, PlanOpening& opening) const {
     const IfcInstance filling = model_.Get(products_[product].instance);
     opening.filling = element_of_[product];
+    if (!FillsOpenings(products_[product].kind)) return;
     if (const double width_m = model_.Length(filling, attribute::kOverallWidth); width_m > 0) opening.width_m = width_m;
     if (const double height_m = model_.Length(filling, attribute::kOverallHeight); height_m > 0) opening.height_m = height_m;
   }

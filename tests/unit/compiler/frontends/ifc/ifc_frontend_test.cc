@@ -231,6 +231,44 @@ TEST(ReadIfc, CurtainWallOfPartsIsOneElementWithItsGlassApart) {
   EXPECT_EQ(plan.elements[0].storey, kNoIndex);
 }
 
+TEST(ReadIfc, CurtainWallOfNothingButADoorIsAWallWhereTheDoorIs) {
+  const Result result = Read(test::IfcText(R"(
+#10=IFCCURTAINWALL('curtain000000000000001',$,'C',$,$,$,$,$);
+#11=IFCRELAGGREGATES('rel0000000000000000001',$,$,$,#10,(#40));
+#12=IFCDIRECTION((0.,0.,1.));
+#13=IFCCURTAINWALL('curtain000000000000002',$,'Empty',$,$,$,$,$);
+#40=IFCDOOR('door000000000000000001',$,'D',$,$,$,#41,$,2.,1.);
+#41=IFCPRODUCTDEFINITIONSHAPE($,$,(#42));
+#42=IFCSHAPEREPRESENTATION($,'Body','SweptSolid',(#43));
+#43=IFCEXTRUDEDAREASOLID(#44,$,#12,2.);
+#44=IFCRECTANGLEPROFILEDEF(.AREA.,$,$,1.,0.05);
+)"));
+  const PlanIr& plan = *result.plan;
+  ASSERT_EQ(plan.elements.size(), 2u);
+  EXPECT_EQ(plan.elements[0].kind, ElementKind::kCurtainWall);
+  EXPECT_EQ(plan.elements[0].name, "C");
+  EXPECT_TRUE(plan.elements[0].body.empty());
+  EXPECT_NEAR(Volume(plan.elements[0].uncut), 0.1, 1e-9);
+  ASSERT_EQ(plan.openings.size(), 1u);
+  EXPECT_EQ(plan.openings[0].wall, 0u);
+  EXPECT_EQ(plan.openings[0].filling, 1u);
+  ASSERT_EQ(result.diagnostics.all().size(), 1u);  // of the empty one
+  EXPECT_EQ(result.diagnostics.all()[0].kind, DiagnosticKind::kWallWithoutBody);
+  EXPECT_EQ(result.diagnostics.all()[0].location.guid, "curtain000000000000002");
+}
+
+// Attributes 9 and 10 are widths and heights of doors and windows only.
+TEST(ReadIfc, CurtainWallInAnOpeningIsNotAskedForItsOverallHeight) {
+  std::string text = Scene();
+  const std::string door = "IFCDOOR('door000000000000000001',$,'D',$,$,#51,#52,$,2.,0.9)";
+  text.replace(text.find(door), door.size(), "IFCCURTAINWALL('door000000000000000001',$,'C',$,$,#51,#52,$,.NOTDEFINED.)");
+  const Result result = Read(text);
+  EXPECT_FALSE(result.Has(DiagnosticKind::kBadAttribute));
+  ASSERT_EQ(result.plan->openings.size(), 1u);
+  EXPECT_EQ(result.plan->openings[0].filling, 1u);
+  EXPECT_FALSE(result.plan->openings[0].height_m);
+}
+
 TEST(ReadIfc, TrueNorthIsWhereTheContextSays) {
   EXPECT_FALSE(Read(Scene()).plan->true_north_rad);
   const Result result = Read(test::IfcText(R"(

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -55,6 +56,11 @@ class Frontend {
 
   PlanIr Run() {
     if (model_.is_too_complex()) return {};
+    if (!HasBuilding()) {
+      model_.Emit(DiagnosticKind::kNoBuilding, kNone,
+                  fmt::format("none of the {} instances of the file is a building, a storey, a space or a building element", model_.size()));
+      return {};
+    }
     ReadNorth();
     ReadStoreys();
     MakeElements();
@@ -70,6 +76,12 @@ class Frontend {
   }
 
  private:
+  bool HasBuilding() const {
+    constexpr std::array kSpatial = {IfcType::kIfcSite, IfcType::kIfcBuilding, IfcType::kIfcBuildingStorey, IfcType::kIfcSpace};
+    return products_.size() > 0 ||
+           std::any_of(kSpatial.begin(), kSpatial.end(), [&](IfcType type) { return !model_.InstancesOf(type).empty(); });
+  }
+
   std::string TextOf(uint32_t instance, size_t attribute_index) const { return model_.Get(instance)[attribute_index].Text(); }
 
   // Of the first context that states it; without, the plan's y axis may or may not be north.

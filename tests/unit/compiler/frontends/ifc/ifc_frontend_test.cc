@@ -274,6 +274,7 @@ TEST(ReadIfc, TrueNorthIsWhereTheContextSays) {
   const Result result = Read(test::IfcText(R"(
 #10=IFCGEOMETRICREPRESENTATIONCONTEXT($,'Model',3,1.E-5,$,#11);
 #11=IFCDIRECTION((-1.,0.));
+#12=IFCBUILDING('building00000000000001',$,'B',$,$,$,$,$,.ELEMENT.,$,$,$);
 )"));
   ASSERT_TRUE(result.plan && result.plan->true_north_rad);
   EXPECT_NEAR(*result.plan->true_north_rad, 3.14159265358979, 1e-12);
@@ -409,6 +410,35 @@ TEST(IfcFrontend, AMapConversionToWhereThePlanStandsIsSaid) {
   };
   EXPECT_TRUE(read("455020.").Has(DiagnosticKind::kGeoreferencedTwice));
   EXPECT_FALSE(read("4550200.").Has(DiagnosticKind::kGeoreferencedTwice));
+}
+
+TEST(IfcFrontend, AMapConversionInThePropertySetOfIfc2x3IsSaid) {
+  const auto read = [](const std::string& set_name, const std::string& northings) {
+    std::string text = kScene;
+    const std::string corner = "#13=IFCCARTESIANPOINT((10.,20.,3.));";
+    text.replace(text.find(corner), corner.size(), "#13=IFCCARTESIANPOINT((455000.,5430000.,3.));");
+    text += "#80=IFCPROPERTYSET('pset000000000000000080',$,'" + set_name + "',$,(#81,#82,#83));\n"
+            "#81=IFCPROPERTYSINGLEVALUE('TargetCRS',$,IFCLABEL('EPSG:25832'),$);\n"
+            "#82=IFCPROPERTYSINGLEVALUE('Eastings',$,IFCLENGTHMEASURE(455020.),$);\n"
+            "#83=IFCPROPERTYSINGLEVALUE('Northings',$," + northings + ",$);\n";
+    return Read(test::IfcText(text, "IFC2X3"));
+  };
+  EXPECT_TRUE(read("ePSet_MapConversion", "IFCLENGTHMEASURE(5430010.)").Has(DiagnosticKind::kGeoreferencedTwice));
+  EXPECT_TRUE(read("ePset_MapConversion", "IFCREAL(5430010.)").Has(DiagnosticKind::kGeoreferencedTwice));
+  EXPECT_FALSE(read("ePSet_MapConversion", "IFCLENGTHMEASURE(0.)").Has(DiagnosticKind::kGeoreferencedTwice));
+  EXPECT_FALSE(read("ePSet_MapConversion", "$").Has(DiagnosticKind::kGeoreferencedTwice));
+  EXPECT_FALSE(read("Other", "IFCLENGTHMEASURE(5430010.)").Has(DiagnosticKind::kGeoreferencedTwice));
+}
+
+TEST(IfcFrontend, WhatHasNoBuildingIsRefused) {
+  for (const std::string data : {"", "#10=PRODUCT('bracket','bracket','',(#11));\n#11=PRODUCT_CONTEXT('',$,'mechanical');",
+                                 "#10=FOO(1,2,3);\n#11=BAR('wall',#10);", "#10=IFCWALLTYPE('type000000000000000001',$,'T',$,$,$,$,$,$,.STANDARD.);"}) {
+    const Result result = Read(test::IfcText(data));
+    EXPECT_FALSE(result.plan) << data;
+    EXPECT_TRUE(result.Has(DiagnosticKind::kNoBuilding)) << data;
+  }
+  EXPECT_TRUE(Read(test::IfcText("#10=IFCBUILDING('building00000000000001',$,'B',$,$,$,$,$,.ELEMENT.,$,$,$);")).plan);
+  EXPECT_TRUE(Read(test::IfcText("#10=IFCSLAB('slab000000000000000001',$,'S',$,$,$,$,$,$);")).plan);
 }
 
 }  // namespace

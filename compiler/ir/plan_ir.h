@@ -29,7 +29,8 @@ struct PlanElement {
   SourceLocation location;
   uint32_t storey = kNoIndex;  // as contained in the source; none where it says nothing
   // As a ray sees it: openings cut. Solid parts of glass (panes) are elements of their own with the same guid; those of a wall or curtain
-  // wall that is not all of glass are of kind kWindow, so that one wall stays one element. Empty for a door or window drawn without a body.
+  // wall that is not all of glass are of kind kWindow, so that one wall stays one element. Empty for a door or window drawn without a body and
+  // for a curtain wall that is nothing but its doors and windows.
   Solid body;
   // Before openings are cut, closed; only for walls, curtain walls, columns and proxies that act as walls. Its horizontal sections are the wall's footprint. It may be
   // several closed solids that touch or overlap (layers, parts, the doors in a curtain wall): the footprint is their union.

@@ -76,7 +76,10 @@ class Host {
       if (o.filling != kNoIndex) c.fillings = WithPanes(o.filling);
       taken.insert(c.fillings.begin(), c.fillings.end());
       // An opening in a slab, a roof or a wall without solid.
-      if (o.wall != kNoIndex && c.wall == kNoIndex && IsKnownAsNoWall(o.wall)) continue;
+      if (o.wall != kNoIndex && c.wall == kNoIndex && IsKnownAsNoWall(o.wall)) {
+        if (IsWindow(c)) ReportInRoof(c);
+        continue;
+      }
       if (o.wall == kNoIndex && c.fillings.empty()) continue;
       AddCandidate(std::move(c));
     }
@@ -107,6 +110,29 @@ class Host {
       return;
     }
     candidates_.push_back(std::move(c));
+  }
+
+  bool IsWindow(const Candidate& c) const { return !c.fillings.empty() && plan_.elements[c.fillings[0]].kind == ElementKind::kWindow; }
+
+  // Lies rather than stands: seen from above it has more area than from all sides.
+  bool FacesUp(const Candidate& c) const {
+    double up = 0, sideways = 0;
+    for (const uint32_t e : c.fillings) {
+      const Solid& body = plan_.elements[e].body;
+      for (const Eigen::Vector3i& t : body.triangles) {
+        const Eigen::Vector3d& a = body.vertices[static_cast<size_t>(t[0])];
+        const Eigen::Vector3d n = (body.vertices[static_cast<size_t>(t[1])] - a).cross(body.vertices[static_cast<size_t>(t[2])] - a);
+        up += std::abs(n.z());
+        sideways += n.head<2>().norm();
+      }
+    }
+    return up > sideways;
+  }
+
+  void ReportInRoof(const Candidate& c) const {
+    const SourceLocation& where = LocationOf(c);
+    sink_.Emit(DiagnosticKind::kWindowInRoof, where,
+               fmt::format("{} lies in a roof or a slab; no wall has it, and it is in the triangles only", where.ToString()));
   }
 
   // Voids may reach far beyond their wall, in curved walls as wedges to the arc's centre: the middle of such a one is where both are.
@@ -171,6 +197,10 @@ class Host {
     const uint32_t wall = stated ? c.wall : NearestWall(out);
     if (wall == kNoIndex) {
       if (out.use == OpeningUse::kUnfilled) return std::nullopt;
+      if (IsWindow(c) && FacesUp(c)) {
+        ReportInRoof(c);
+        return std::nullopt;
+      }
       const SourceLocation& where = LocationOf(c);
       sink_.Emit(
           DiagnosticKind::kOpeningWithoutWall, where,

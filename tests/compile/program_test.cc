@@ -56,6 +56,7 @@ TEST_F(Program, ValidateSaysTheSameInEveryFormat) {
                                         {golden_ + "PL7103.ifc'", 0},
                                         {golden_ + "PL7120.ifc'", 1},
                                         {golden_ + "PL2002.ifc'", 2},
+                                        {golden_ + "PL2009.ifc'", 2},
                                         {golden_ + "PL8002.agraph'", 2},
                                         {std::string("missing.ifc"), 2}}) {
     const Outcome text = Plumb("validate " + input), json = Plumb("validate --format json " + input),

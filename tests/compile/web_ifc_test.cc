@@ -19,6 +19,10 @@
 #include <vector>
 
 #include "compiler/compile.h"
+#include "compiler/frontends/ifc/ifc_frontend.h"
+#include "compiler/passes/polygon.h"
+#include "compiler/passes/section.h"
+#include "compiler/source/source.h"
 #include "schema/files.h"
 #include "tests/support/temporary_folder.h"
 
@@ -69,6 +73,27 @@ FacetsOfWalls ParseFacets(const std::string& bytes) {
   return out;
 }
 
+bool LiesOn(const std::vector<Facet>& facets, const Eigen::Vector3d& p) {
+  return std::any_of(facets.begin(), facets.end(), [&](const Facet& f) { return DistanceTo(f, p) <= kExact_m; });
+}
+
+// web-ifc loses faces of some walls when it cuts openings. The area vectors of a closed surface add up to nothing, however it is divided.
+bool LacksFaces(const std::vector<Facet>& facets) {
+  constexpr double kMaxShare = 0.01;
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  double area_m2 = 0;
+  for (const Facet& f : facets) {
+    const Eigen::Vector3d n = 0.5 * (f.b - f.a).cross(f.c - f.a);
+    sum += n;
+    area_m2 += n.norm();
+  }
+  return sum.norm() > kMaxShare * area_m2;
+}
+
+double CutHeight(const AGraph& graph, const Surface& s) {
+  return graph.storeys[s.storey.index()].elevation_m + compiler::CompileOptions().section_height_m;
+}
+
 // Ranges along a wall and up where it is open.
 struct Hole {
   double from_m, to_m, bottom_m, top_m;
@@ -91,8 +116,7 @@ std::vector<Hole> HolesOf(const AGraph& graph, const Surface& s, const Eigen::Ve
 std::vector<Eigen::Vector3d> Samples(const AGraph& graph, const Surface& s) {
   const Eigen::Vector2d along = (s.end - s.start).normalized();
   const std::vector<Hole> holes = HolesOf(graph, s, along);
-  const double cut_m = graph.storeys[s.storey.index()].elevation_m + compiler::CompileOptions().section_height_m;
-  const double top_m = std::min(cut_m, s.z_max_m - kMargin_m);
+  const double top_m = std::min(CutHeight(graph, s), s.z_max_m - kMargin_m);
   std::vector<Eigen::Vector3d> out;
   for (double x = kMargin_m; x < s.length_m() - kMargin_m; x += kStep_m) {
     for (double z = top_m; z > s.z_min_m + kMargin_m; z -= kStep_m) {
@@ -102,6 +126,17 @@ std::vector<Eigen::Vector3d> Samples(const AGraph& graph, const Surface& s) {
     }
   }
   return out;
+}
+
+// Whether the surface is where the section cuts a face that leans: the top of a gable, a battered wall. No upright facet is there then, but
+// all along the cut lies the wall.
+bool LiesOnLeaningFace(const AGraph& graph, const Surface& s, const std::vector<Facet>& facets) {
+  const Eigen::Vector2d along = (s.end - s.start).normalized();
+  for (double x = kMargin_m; x < s.length_m() - kMargin_m; x += kStep_m) {
+    const Eigen::Vector2d at = s.start + x * along;
+    if (!LiesOn(facets, {at.x(), at.y(), CutHeight(graph, s)})) return false;
+  }
+  return true;
 }
 
 // GlobalIds of what the compiler says it did not read exactly.
@@ -131,10 +166,35 @@ class WebIfc : public ::testing::TestWithParam<std::string> {
     facets_ = ParseFacets(ReadFileText(out).value());
     result_ = compiler::Compile(plan.string());
     ASSERT_TRUE(result_.graph);
+    compiler::DiagnosticSink sink;
+    const auto source = compiler::LoadSource(plan.string(), sink);
+    ASSERT_TRUE(source);
+    plan_ = compiler::ReadIfc(*source, sink).value_or(compiler::PlanIr());
+  }
+
+  // Whether an opening of the wall takes it away at a point of its side. What fills it is another element, as a shop front.
+  [[nodiscard]] bool IsOpenAt(const std::string& wall, const Eigen::Vector3d& p) const {
+    const Eigen::Vector3d q = p - plan_.origin;
+    return std::any_of(plan_.openings.begin(), plan_.openings.end(), [&](const compiler::PlanOpening& o) {
+      if (o.wall == compiler::kNoIndex || plan_.elements[o.wall].guid != wall) return false;
+      const std::vector<Ring> rings = compiler::CutSolid(o.body, q.z()).rings;
+      return compiler::WindingNumber(rings, q.head<2>()) != 0 || compiler::DistanceToRings(q.head<2>(), rings) <= kMargin_m;
+    });
+  }
+
+  // Whether openings take all of the surface at the height of the section.
+  [[nodiscard]] bool IsOpen(const AGraph& graph, const Surface& s) const {
+    const Eigen::Vector2d along = (s.end - s.start).normalized();
+    for (double x = kMargin_m; x < s.length_m() - kMargin_m; x += kStep_m) {
+      const Eigen::Vector2d at = s.start + x * along;
+      if (!IsOpenAt(graph.walls[s.wall.index()].guid, {at.x(), at.y(), CutHeight(graph, s)})) return false;
+    }
+    return true;
   }
 
   FacetsOfWalls facets_;
   compiler::CompileResult result_;
+  compiler::PlanIr plan_;
 };
 
 // How far the nearest facet that is parallel to the surface, and before it, lies off its plane.
@@ -157,7 +217,8 @@ double OffPlane(const Surface& s, const std::vector<Facet>& facets) {
 TEST_P(WebIfc, HasTheSameWallSurfacesToAMillimetre) {
   const AGraph& graph = *result_.graph;
   const std::set<std::string> not_exact = NotExact(result_.diagnostics);
-  size_t surfaces = 0, samples = 0, covered = 0;
+  size_t surfaces = 0, leaning = 0, open = 0, samples = 0, covered = 0;
+  std::set<std::string> lacking;
   double worst_m = 0;
   for (size_t i = 0; i < graph.surfaces.size(); ++i) {
     const Surface& s = graph.surfaces[i];
@@ -166,24 +227,41 @@ TEST_P(WebIfc, HasTheSameWallSurfacesToAMillimetre) {
     // A bridged gap is taken for wall where none was drawn.
     if (s.arc || not_exact.contains(wall.guid) || facets == facets_.end() || s.length_m() <= std::max(2 * kMargin_m, compiler::CompileOptions().max_gap_m)) continue;
     const double off_m = OffPlane(s, facets->second);
+    const bool lacks_faces = LacksFaces(facets->second);
+    if (off_m > kExact_m && lacks_faces) {
+      lacking.insert(wall.guid);
+      continue;
+    }
+    if (off_m > kExact_m && LiesOnLeaningFace(graph, s, facets->second)) {
+      ++leaning;
+      continue;
+    }
+    if (off_m > kExact_m && IsOpen(graph, s)) {
+      ++open;
+      continue;
+    }
     EXPECT_LE(off_m, kExact_m) << "surface " << i << " from " << s.start.transpose() << " to " << s.end.transpose() << " of wall " << wall.guid << " `"
                                << wall.name << "`";
     ++surfaces;
     worst_m = std::max(worst_m, off_m);
     for (const Eigen::Vector3d& p : Samples(graph, s)) {
+      const bool lies_on = LiesOn(facets->second, p);
+      if (!lies_on && (lacks_faces || IsOpenAt(wall.guid, p))) continue;
       ++samples;
-      covered += std::any_of(facets->second.begin(), facets->second.end(), [&](const Facet& f) { return DistanceTo(f, p) <= kExact_m; });
+      covered += lies_on;
     }
   }
   EXPECT_GT(surfaces, 0u);
   EXPECT_GE(static_cast<double>(covered), kMinCovered * static_cast<double>(samples)) << covered << " of " << samples << " samples lie on a wall";
   std::cout << GetParam() << ": " << surfaces << " surfaces at most " << 1000 * worst_m << " mm off; " << covered << " of " << samples
-            << " samples lie on the wall\n";
+            << " samples lie on the wall; left out: " << leaning << " on leaning faces, " << open << " that openings take whole, walls that lack faces in web-ifc: "
+            << lacking.size() << "\n";
 }
 
-// Those whose straight walls the compiler reads exactly.
+// Plans of at least some rooms, whose straight walls the compiler reads exactly.
 INSTANTIATE_TEST_SUITE_P(All, WebIfc,
-                         ::testing::Values("AC11-Institute-Var-2-IFC", "AC20-FZK-Haus", "Allplan-Smiley-West", "Duplex_A_20110907", "MAD_SCIENTIST_212"),
+                         ::testing::Values("AC11-Institute-Var-2-IFC", "AC20-FZK-Haus", "Allplan-Smiley-West", "brunopostle_creative-freedom", "Duplex_A_20110907",
+                                           "Jesse.1", "jgs_fhnw_model", "MAD_SCIENTIST_212", "Office_A_20110811", "revit2012_janesville_restaurant"),
                          [](const auto& plan) {
                            std::string name = plan.param;
                            std::replace_if(name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');

@@ -79,7 +79,9 @@ void AddCompile(CLI::App& app, Session& session) {
   auto flags = std::make_shared<CompileFlags>();
   CLI::App* sub = AddSubcommand(app, session, "compile", "Turn a floor plan into an A-Graph: rooms, wall surfaces, doorways, triangles",
                                 "  plumb compile house.ifc -o house.agraph\n"
-                                "  plumb compile house.ifc.gz -o house.agraph --diagnostics-json house.json");
+                                "  plumb compile house.ifc.gz -o house.agraph --diagnostics-json house.json\n"
+                                "Status 1: the A-Graph is written, but has errors in it: in a plan without walls no robot can localize, say.\n"
+                                "Status 2: nothing is written: the file is damaged, too large, of no schema that is read, or has no building in it.");
   sub->add_option("PLAN", flags->plan, "the plan: IFC as a STEP file, plain, gzipped or in a ZIP archive (.ifczip)")->required();
   sub->add_option("-o,--output", flags->output, "the A-Graph to write")->required()->type_name("FILE.agraph");
   sub->add_option("--diagnostics-json", flags->diagnostics_json, "write what the compiler has to say about the plan as JSON")

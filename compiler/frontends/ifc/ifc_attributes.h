@@ -58,7 +58,8 @@ inline constexpr size_t kDirectrix = 0, kDiskRadius = 1;
 inline constexpr size_t kBooleanOperator = 0, kFirstOperand = 1, kSecondOperand = 2, kCsgTree = 0;
 inline constexpr size_t kHalfSpaceSurface = 0, kHalfSpaceAgreement = 1, kBoundedPosition = 2, kBoundedBoundary = 3;
 inline constexpr size_t kSurfacePosition = 0, kCylinderSurfaceRadius = 1;
-inline constexpr size_t kPrimitivePosition = 0, kBlockX = 1, kBlockY = 2, kBlockZ = 3, kCylinderHeight = 1, kCylinderRadius = 2;
+inline constexpr size_t kPrimitivePosition = 0, kBlockX = 1, kBlockY = 2, kBlockZ = 3, kCylinderHeight = 1, kCylinderRadius = 2,
+                        kSphereRadius = 1;  // pyramids are measured as blocks, cones as cylinders
 inline constexpr size_t kBrepOuter = 0, kBrepVoids = 1, kModelShells = 0, kShellFaces = 0;
 inline constexpr size_t kFaceBounds = 0, kFaceSurface = 1, kFaceSameSense = 2, kBoundLoop = 0, kBoundOrientation = 1, kLoopPoints = 0,
                         kLoopEdges = 0;

@@ -50,13 +50,10 @@ double Sweep(double from_rad, double to_rad, bool forward) {
   return forward ? sweep : -sweep;
 }
 
-struct Trim {
-  std::optional<double> parameter;
-  std::optional<Vector3d> point;
-};
+bool IsSpline(IfcType type) { return type == IfcType::kIfcBSplineCurveWithKnots || type == IfcType::kIfcRationalBSplineCurveWithKnots; }
 
-Trim ReadTrim(const IfcModel& model, const PlacementReader& placements, StepValue list) {
-  Trim trim;
+CurveTrim ReadTrim(const IfcModel& model, const PlacementReader& placements, StepValue list) {
+  CurveTrim trim;
   for (const StepValue item : list.Items()) {
     if (const auto number = item.Real(); number && std::isfinite(*number)) trim.parameter = number;
     if (const IfcInstance point = model.Follow(item)) trim.point = placements.Point(point);
@@ -97,6 +94,23 @@ Eigen::Vector4d EvaluateSpline(const std::vector<Eigen::Vector4d>& points, const
     }
   }
   return d[degree];
+}
+
+// Flat steps over [low, high] for which the middle of each keeps within the tolerance of its chord; a power of two.
+template <class At>
+int SplineSteps(const At& at, double low, double high, double tolerance_m) {
+  constexpr int kMin = 8, kMax = 64;
+  for (int steps = kMin; steps < kMax; steps *= 2) {
+    double worst_m = 0;
+    for (int i = 0; i < steps; ++i) {
+      const auto u = [&](double step) { return low + (high - low) * step / steps; };
+      const Vector3d start = at(u(i)), chord = at(u(i + 1)) - start, middle = at(u(i + 0.5)) - start;
+      const double length2 = chord.squaredNorm();
+      worst_m = std::max(worst_m, (middle - (length2 > 0 ? std::clamp(middle.dot(chord) / length2, 0.0, 1.0) : 0.0) * chord).norm());
+    }
+    if (worst_m <= tolerance_m) return steps;
+  }
+  return kMax;
 }
 
 }  // namespace
@@ -163,7 +177,7 @@ CurvePoints CurveReader::Read(const IfcInstance& curve, int depth) const {
     case IfcType::kIfcCircle:
     case IfcType::kIfcEllipse: return Conic(curve, 0, kTwoPi);
     case IfcType::kIfcBSplineCurveWithKnots:
-    case IfcType::kIfcRationalBSplineCurveWithKnots: return Spline(curve);
+    case IfcType::kIfcRationalBSplineCurveWithKnots: return Spline(curve, {}, {});
     default: break;
   }
   model_.Emit(DiagnosticKind::kUnsupportedGeometry, curve.index,
@@ -205,11 +219,11 @@ CurvePoints CurveReader::Trimmed(const IfcInstance& curve, int depth) const {
   CurvePoints out;
   const IfcInstance basis = model_.Follow(curve[attribute::kTrimBasis]);
   if (!basis) return out;
-  const Trim a = ReadTrim(model_, placements_, curve[attribute::kTrim1]), b = ReadTrim(model_, placements_, curve[attribute::kTrim2]);
+  const CurveTrim a = ReadTrim(model_, placements_, curve[attribute::kTrim1]), b = ReadTrim(model_, placements_, curve[attribute::kTrim2]);
   const bool sense = curve[attribute::kTrimSense].Boolean().value_or(true);
   const bool by_point = curve[attribute::kTrimMaster].Enumeration() == "CARTESIAN";
   if (IsConic(basis.type)) {
-    const auto angle = [&](const Trim& t) {
+    const auto angle = [&](const CurveTrim& t) {
       if (t.point && (by_point || !t.parameter)) return AngleOnConic(basis, *t.point);
       return t.parameter.value_or(0) * model_.angle_scale();
     };
@@ -222,14 +236,14 @@ CurvePoints CurveReader::Trimmed(const IfcInstance& curve, int depth) const {
     const Vector3d direction =
         vector ? placements_.Direction(vector[attribute::kVectorOrientation], Vector3d::UnitX()).normalized() : Vector3d::UnitX();
     const double magnitude_m = vector ? model_.Length(vector, attribute::kVectorMagnitude, model_.length_scale()) : model_.length_scale();
-    const auto at = [&](const Trim& t) -> Vector3d {
+    const auto at = [&](const CurveTrim& t) -> Vector3d {
       if (t.point && (by_point || !t.parameter)) return *t.point;
       return origin + direction * (t.parameter.value_or(0) * magnitude_m);
     };
     out.points = {at(a), at(b)};
     return out;
   }
-  out = Read(basis, depth + 1);
+  out = IsSpline(basis.type) ? Spline(basis, a, b) : Read(basis, depth + 1);
   if (a.point && b.point && out.points.size() == 2) out.points = {*a.point, *b.point};
   if (!sense) Reverse(out);
   return out;
@@ -321,8 +335,7 @@ CurvePoints CurveReader::Indexed(const IfcInstance& curve) const {
   return out;
 }
 
-CurvePoints CurveReader::Spline(const IfcInstance& curve) const {
-  constexpr int kStepsPerSpan = 8;
+CurvePoints CurveReader::Spline(const IfcInstance& curve, const CurveTrim& a, const CurveTrim& b) const {
   CurvePoints out;
   const auto degree = curve[attribute::kSplineDegree].Integer().value_or(0);
   std::vector<Eigen::Vector4d> points;
@@ -342,13 +355,17 @@ CurvePoints CurveReader::Spline(const IfcInstance& curve) const {
     return out;
   }
   const auto p = static_cast<size_t>(degree);
+  const auto at = [&](double u) -> Vector3d {
+    const Eigen::Vector4d q = EvaluateSpline(points, knots, p, u);
+    return q.w() != 0 ? Vector3d(q.head<3>() / q.w()) : Vector3d::Zero();
+  };
+  const double from = a.parameter.value_or(knots.front()), to = b.parameter.value_or(knots.back());
   for (size_t span = p; span < points.size(); ++span) {
-    if (!(knots[span + 1] > knots[span])) continue;
-    const int first = out.points.empty() ? 0 : 1;
-    for (int i = first; i <= kStepsPerSpan; ++i) {
-      const Eigen::Vector4d q = EvaluateSpline(points, knots, p, knots[span] + (knots[span + 1] - knots[span]) * i / kStepsPerSpan);
-      if (q.w() != 0) out.points.push_back(q.head<3>() / q.w());
-    }
+    const double low = std::max(knots[span], std::min(from, to)), high = std::min(knots[span + 1], std::max(from, to));
+    if (!(high > low)) continue;
+    const int steps = SplineSteps(at, low, high, chord_tolerance_m_);
+    for (int i = out.points.empty() ? 0 : 1; i <= steps; ++i) out.points.push_back(at(low + (high - low) * i / steps));
+    if (TooLong(out.points.size(), curve.index)) return {};
   }
   return out;
 }
@@ -362,8 +379,7 @@ Ring3 CurveReader::ReadBetween(const IfcInstance& curve, const Vector3d& start, 
       points.back() = end;
       return points;
     }
-  } else if (curve && (curve.type == IfcType::kIfcBSplineCurveWithKnots || curve.type == IfcType::kIfcRationalBSplineCurveWithKnots ||
-                       curve.type == IfcType::kIfcTrimmedCurve || curve.type == IfcType::kIfcPolyline)) {
+  } else if (curve && (IsSpline(curve.type) || curve.type == IfcType::kIfcTrimmedCurve || curve.type == IfcType::kIfcPolyline)) {
     Ring3 points = Read(curve).points;
     if (points.size() >= 2) {
       if ((points.front() - start).norm() > (points.back() - start).norm()) std::reverse(points.begin(), points.end());

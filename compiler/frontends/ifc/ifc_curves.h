@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
 #include <vector>
 
 #include "compiler/frontends/ifc/ifc_model.h"
@@ -16,6 +17,12 @@ struct CurvePoints {
   std::vector<Arc> arcs;  // circular arcs that lie in the xy plane, exact
 };
 
+// Where a trimmed curve begins or ends.
+struct CurveTrim {
+  std::optional<double> parameter;
+  std::optional<Eigen::Vector3d> point;
+};
+
 // A polygon of more corners would take triangulators and exact predicates minutes.
 inline constexpr size_t kMaxCurvePoints = 100000;
 
@@ -24,7 +31,7 @@ class CurveReader {
   CurveReader(const IfcModel& model, const PlacementReader& placements, double chord_tolerance_m)
       : model_(model), placements_(placements), chord_tolerance_m_(chord_tolerance_m) {}
 
-  // IfcPolyline, IfcIndexedPolyCurve, IfcCompositeCurve, IfcTrimmedCurve of lines and conics, IfcCircle, IfcEllipse,
+  // IfcPolyline, IfcIndexedPolyCurve, IfcCompositeCurve, IfcTrimmedCurve of lines, conics and splines, IfcCircle, IfcEllipse,
   // IfcBSplineCurveWithKnots. Empty, with an UnsupportedGeometry diagnostic, for others, and with PlanTooComplex beyond kMaxCurvePoints.
   [[nodiscard]] CurvePoints Read(const IfcInstance& curve) const { return Read(curve, 0); }
   // The points of a list of references; as for Read, `whole` is what they are of.
@@ -46,7 +53,7 @@ class CurveReader {
   [[nodiscard]] CurvePoints Trimmed(const IfcInstance& curve, int depth) const;
   [[nodiscard]] CurvePoints Indexed(const IfcInstance& curve) const;
   [[nodiscard]] CurvePoints Conic(const IfcInstance& conic, double start_rad, double sweep_rad) const;
-  [[nodiscard]] CurvePoints Spline(const IfcInstance& curve) const;
+  [[nodiscard]] CurvePoints Spline(const IfcInstance& curve, const CurveTrim& a, const CurveTrim& b) const;
   [[nodiscard]] double AngleOnConic(const IfcInstance& conic, const Eigen::Vector3d& p) const;
   void AddArcThrough(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c, CurvePoints& out) const;
 

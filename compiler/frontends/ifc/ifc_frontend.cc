@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <set>
 #include <utility>
@@ -55,6 +56,11 @@ class Frontend {
 
   PlanIr Run() {
     if (model_.is_too_complex()) return {};
+    if (!HasBuilding()) {
+      model_.Emit(DiagnosticKind::kNoBuilding, kNone,
+                  fmt::format("none of the {} instances of the file is a building, a storey, a space or a building element", model_.size()));
+      return {};
+    }
     ReadNorth();
     ReadStoreys();
     MakeElements();
@@ -70,6 +76,12 @@ class Frontend {
   }
 
  private:
+  bool HasBuilding() const {
+    constexpr std::array kSpatial = {IfcType::kIfcSite, IfcType::kIfcBuilding, IfcType::kIfcBuildingStorey, IfcType::kIfcSpace};
+    return products_.size() > 0 ||
+           std::any_of(kSpatial.begin(), kSpatial.end(), [&](IfcType type) { return !model_.InstancesOf(type).empty(); });
+  }
+
   std::string TextOf(uint32_t instance, size_t attribute_index) const { return model_.Get(instance)[attribute_index].Text(); }
 
   // Of the first context that states it; without, the plan's y axis may or may not be north.
@@ -154,7 +166,7 @@ class Frontend {
     for (uint32_t p = 0; p < products_.size(); ++p) {
       const Product& product = products_[p];
       if (product.whole != kNoIndex) continue;
-      if (product.parts.empty() && !FillsOpenings(product.kind)) {
+      if (product.parts.empty() && !FillsOpenings(product.kind) && !IsMadeOfFillings(product)) {
         ReportNoBody(product);
         continue;
       }
@@ -175,6 +187,12 @@ class Frontend {
       if (IsWallLike(product.kind) && element.arcs.empty()) openings_.RestoreUncut(p, element.uncut);
       AddElements(p, std::move(element), std::move(parts));
     }
+  }
+
+  // A shop front that is nothing but its doors.
+  bool IsMadeOfFillings(const Product& product) const {
+    return product.kind == ElementKind::kCurtainWall &&
+           std::any_of(product.fillings.begin(), product.fillings.end(), [&](uint32_t f) { return !products_[f].parts.empty(); });
   }
 
   bool HasUncut(uint32_t p) const {
@@ -199,7 +217,7 @@ class Frontend {
   }
 
   void ReportNoBody(const Product& product) const {
-    if (product.kind == ElementKind::kWall) {
+    if (IsWallLike(product.kind)) {
       model_.Emit(DiagnosticKind::kWallWithoutBody, product.instance,
                   fmt::format("{} has no body that can be read; it is left out", model_.Label(product.instance)));
     }
@@ -237,6 +255,7 @@ class Frontend {
   void DescribeFilling(uint32_t product, PlanOpening& opening) const {
     const IfcInstance filling = model_.Get(products_[product].instance);
     opening.filling = element_of_[product];
+    if (!FillsOpenings(products_[product].kind)) return;
     if (const double width_m = model_.Length(filling, attribute::kOverallWidth); width_m > 0) opening.width_m = width_m;
     if (const double height_m = model_.Length(filling, attribute::kOverallHeight); height_m > 0) opening.height_m = height_m;
   }

@@ -7,8 +7,8 @@
 
 namespace plumb::compiler {
 
-// For a plan that its placements put around `plan_origin_m`, far from zero: GeoreferencedTwice if its IfcMapConversion leads to that place
-// again, so that a reader who applies both would put it at twice its eastings and northings.
+// For a plan that its placements put around `plan_origin_m`, far from zero: GeoreferencedTwice if its IfcMapConversion (in IFC2X3 the property
+// set ePSet_MapConversion) leads to that place again, so that a reader who applies both would put it at twice its eastings and northings.
 void CheckGeoreference(const IfcModel& model, const Eigen::Vector3d& plan_origin_m);
 
 }  // namespace plumb::compiler

@@ -23,7 +23,7 @@ char Upper(char c) { return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + '
 
 bool Refuses(DiagnosticKind kind) {
   return kind == DiagnosticKind::kFileCutOff || kind == DiagnosticKind::kReferenceCycle || kind == DiagnosticKind::kNumberNotFinite ||
-         kind == DiagnosticKind::kPlanTooComplex;
+         kind == DiagnosticKind::kPlanTooComplex || kind == DiagnosticKind::kNoBuilding;
 }
 
 bool EqualsIgnoringCase(std::string_view a, std::string_view b) {

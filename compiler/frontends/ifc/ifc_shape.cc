@@ -8,6 +8,7 @@
 #include <numbers>
 #include <utility>
 
+#include "compiler/frontends/ifc/ifc_primitives.h"
 #include "compiler/geometry/csg.h"
 #include "compiler/geometry/sweep.h"
 
@@ -172,7 +173,10 @@ ShapeParts ShapeReader::ReadItem(const IfcInstance& item, int depth) {
       return tree ? Item(tree, depth + 1) : ShapeParts();
     }
     case IfcType::kIfcBlock:
-    case IfcType::kIfcRightCircularCylinder: return Primitive(item);
+    case IfcType::kIfcRectangularPyramid:
+    case IfcType::kIfcRightCircularCone:
+    case IfcType::kIfcRightCircularCylinder:
+    case IfcType::kIfcSphere: return Primitive(item);
     case IfcType::kIfcFacetedBrep:
     case IfcType::kIfcFacetedBrepWithVoids:
     case IfcType::kIfcAdvancedBrep:
@@ -274,26 +278,12 @@ ShapeParts ShapeReader::Disk(const IfcInstance& item) {
 }
 
 ShapeParts ShapeReader::Primitive(const IfcInstance& item) {
-  const Affine3d T(placements_.AxisPlacement(item[attribute::kPrimitivePosition]).matrix());
-  Solid solid;
-  if (item.type == IfcType::kIfcBlock) {
-    const Vector3d size(model_.Length(item, attribute::kBlockX), model_.Length(item, attribute::kBlockY),
-                        model_.Length(item, attribute::kBlockZ));
-    if (size.minCoeff() > 0) solid = MakeBox(Vector3d::Zero(), size);
-  } else {
-    const double radius_m = model_.Length(item, attribute::kCylinderRadius);
-    const int sides = ArcSegments(radius_m, 2 * std::numbers::pi, options_.chord_tolerance_m);
-    Ring2 ring;
-    for (int i = 0; i < sides; ++i) {
-      const double angle = 2 * std::numbers::pi * i / sides;
-      ring.emplace_back(radius_m * std::cos(angle), radius_m * std::sin(angle));
-    }
-    solid = Extrude({ring}, Vector3d::UnitZ() * model_.Length(item, attribute::kCylinderHeight));
-  }
-  if (solid.empty())
+  Solid solid = ReadPrimitive(model_, item, options_.chord_tolerance_m);
+  if (solid.empty()) {
     model_.Emit(DiagnosticKind::kDegenerateGeometry, item.index,
                 fmt::format("{} has measures that are not positive", model_.Label(item.index)));
-  TransformSolid(T, solid);
+  }
+  TransformSolid(Affine3d(placements_.AxisPlacement(item[attribute::kPrimitivePosition]).matrix()), solid);
   return OnePart(std::move(solid));
 }
 

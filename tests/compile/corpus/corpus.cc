@@ -24,6 +24,7 @@
 namespace plumb::corpus {
 namespace {
 
+using compiler::PlanElement;
 using compiler::PlanIr;
 
 constexpr double kMatched = 0.8;
@@ -126,6 +127,20 @@ void ScoreDoors(const Truth& truth, const AGraph& graph, PlanScore& score) {
   }
 }
 
+// IfcWindows that are a window of a wall, and what is said of those that are not.
+void ScoreWindows(const PlanIr& plan, const AGraph& graph, const compiler::DiagnosticSink& sink, PlanScore& score) {
+  std::set<std::string> found, drawn;
+  for (const Window& w : graph.windows) found.insert(w.guid);
+  for (const PlanElement& e : plan.elements) {
+    if (!e.type.starts_with("IfcWindow") || !drawn.insert(e.guid).second) continue;
+    score.windows.Count(found.contains(e.guid));
+    if (found.contains(e.guid)) continue;
+    const auto said = [&](const compiler::Diagnostic& d) { return d.location.guid == e.guid && d.kind >= compiler::DiagnosticKind::kOpeningNotPlaced; };
+    const auto why = std::find_if(sink.all().begin(), sink.all().end(), said);
+    score.misses.push_back(fmt::format("window `{}`: {}", e.name, why == sink.all().end() ? "nothing is said of it" : why->message));
+  }
+}
+
 void CountAgainst(const nlohmann::json& facts, const AGraph& graph, PlanScore& score) {
   for (const auto& f : facts) {
     if (f.at("file") != score.name) continue;
@@ -136,14 +151,12 @@ void CountAgainst(const nlohmann::json& facts, const AGraph& graph, PlanScore& s
     score.windows.all = counts.at("windows");
     score.joined.all = std::max(score.joined.all, score.doors.all);
   }
-  std::set<std::string> walls, windows;
+  std::set<std::string> walls;
   for (const Wall& w : graph.walls) {
     if (w.type.starts_with("IfcWall")) walls.insert(w.guid);
   }
-  for (const Window& w : graph.windows) windows.insert(w.guid);
   score.storeys.good = graph.storeys.size();
   score.walls.good = walls.size();
-  score.windows.good = windows.size();
   for (const Doorway& d : graph.doorways) (d.has_leaf ? score.doors.good : score.passages)++;
 }
 
@@ -169,6 +182,7 @@ PlanScore ScorePlan(const std::string& path, const nlohmann::json& facts) {
   const Truth truth(*plan);
   ScoreSpaces(truth, built->graph, out);
   ScoreDoors(truth, built->graph, out);
+  ScoreWindows(*plan, built->graph, sink, out);
   CountAgainst(facts, built->graph, out);
   out.rooms = built->graph.rooms.size();
   out.doorways = built->graph.doorways.size();

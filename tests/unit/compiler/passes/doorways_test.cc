@@ -167,6 +167,33 @@ TEST(Doorways, OnesThatLeadNowhereAreDiagnosed) {
   EXPECT_NEAR(FindDoorway(graph, "lone")->width_m, 1, 1e-9);
 }
 
+// Tilted by 30 deg and tied to nothing, or upright in an opening of a slab.
+TEST(Windows, InARoofAreSaidAndLeftOut) {
+  test::PlanBuilder b;
+  b.plan = test::TwoRooms();
+  b.On(0);
+  PlanElement light;
+  light.kind = ElementKind::kWindow;
+  light.guid = "skylight";
+  light.body = MakeBox({0, 0, 0}, {0.8, 1.2, 0.05}, Eigen::Affine3d(Eigen::Translation3d(2, 1.5, 2.6) * Eigen::AngleAxisd(0.52, Eigen::Vector3d::UnitX())));
+  b.plan.elements.push_back(light);
+  const uint32_t slab = b.Prismatic(ElementKind::kSlab, "roof", test::Rectangle({-1, -1}, {9, 5}), 2.5, 2.7);
+  light.guid = "lantern";
+  light.body = test::Prism(test::Rectangle({6, 2}, {6.1, 3}), 2.5, 3.5);
+  b.plan.elements.push_back(light);
+  PlanOpening o;
+  o.wall = slab;
+  o.filling = static_cast<uint32_t>(b.plan.elements.size() - 1);
+  o.body = light.body;
+  b.plan.openings.push_back(o);
+  DiagnosticSink sink;
+  const AGraph graph = Build(b.plan, sink).graph;
+  ASSERT_EQ(graph.windows.size(), 1u);
+  EXPECT_EQ(graph.windows[0].guid, "W");
+  EXPECT_EQ(CountOf(sink, DiagnosticKind::kWindowInRoof), 2u);
+  EXPECT_EQ(CountOf(sink, DiagnosticKind::kOpeningWithoutWall), 0u);
+}
+
 TEST(Doorways, OnTheUpperStoreyJoinItsRooms) {
   PlanIr plan = test::TwoRooms();
   PlanIr upper = test::Moved(plan, 0, {0, 0, 2.7});

@@ -85,11 +85,31 @@ TEST_F(CurveReaderTest, SplineThroughItsEnds) {
       "#12=IFCCARTESIANPOINT((1.,2.));\n#13=IFCCARTESIANPOINT((2.,0.));\n#20=IFCBSPLINECURVEWITHKNOTS(2,(#11,#12,#13),.U.,.F.,.F.,(3,9),(0."
       ",1.),.U.);");
   const CurvePoints curve = curves_->Read(Get(10));
-  ASSERT_EQ(curve.points.size(), 9u);
-  EXPECT_TRUE(curve.points[4].isApprox(Vector3d(1, 1, 0)));  // Bezier: (p0 + 2 p1 + p2) / 4
+  ASSERT_EQ(curve.points.size(), 33u);  // 8 steps leave 1 / 64 m, 32 keep within 2 mm
+  EXPECT_TRUE(curve.points[16].isApprox(Vector3d(1, 1, 0)));  // Bezier: (p0 + 2 p1 + p2) / 4
   EXPECT_TRUE(curve.points.back().isApprox(Vector3d(2, 0, 0)));
   EXPECT_TRUE(curves_->Read(Get(20)).points.empty());
   EXPECT_EQ(diagnostics_.all().size(), 1u);
+}
+
+// The parabola y = x (2 - x), x = 2 u, of two spans, from u = 0.25 to 0.75 and back.
+TEST_F(CurveReaderTest, TrimmedSplineIsThePartBetweenItsParameters) {
+  Open(
+      "#10=IFCBSPLINECURVEWITHKNOTS(2,(#11,#12,#13,#14),.UNSPECIFIED.,.F.,.F.,(3,1,3),(0.,0.5,1.),.UNSPECIFIED.);\n"
+      "#11=IFCCARTESIANPOINT((0.,0.));\n#12=IFCCARTESIANPOINT((0.5,1.));\n#13=IFCCARTESIANPOINT((1.5,1.));\n#14=IFCCARTESIANPOINT((2.,0.));\n"
+      "#20=IFCTRIMMEDCURVE(#10,(IFCPARAMETERVALUE(0.25)),(IFCPARAMETERVALUE(0.75)),.T.,.PARAMETER.);\n"
+      "#21=IFCTRIMMEDCURVE(#10,(IFCPARAMETERVALUE(0.25)),(IFCPARAMETERVALUE(0.75)),.F.,.PARAMETER.);\n"
+      "#30=IFCCOMPOSITECURVE((#31,#32),.F.);\n#31=IFCCOMPOSITECURVESEGMENT(.CONTINUOUS.,.T.,#20);\n"
+      "#32=IFCCOMPOSITECURVESEGMENT(.CONTINUOUS.,.T.,#33);\n#33=IFCPOLYLINE((#34,#35,#36));\n#34=IFCCARTESIANPOINT((1.5,0.75));\n"
+      "#35=IFCCARTESIANPOINT((1.5,0.));\n#36=IFCCARTESIANPOINT((0.5,0.75));");
+  const CurvePoints curve = curves_->Read(Get(20)), back = curves_->Read(Get(21));
+  EXPECT_TRUE(curve.points.front().isApprox(Vector3d(0.5, 0.75, 0)));
+  EXPECT_TRUE(curve.points.back().isApprox(Vector3d(1.5, 0.75, 0)));
+  for (const Vector3d& p : curve.points) EXPECT_NEAR(p.y(), p.x() * (2 - p.x()), 1e-12);
+  EXPECT_TRUE(back.points.front().isApprox(curve.points.back()));
+  // Under the arc 11/12, less the triangle from the end's foot to the start.
+  EXPECT_NEAR(std::abs(SignedArea(curves_->ReadRing(Get(30), nullptr))), 11. / 12 - 0.375, 0.002);
+  EXPECT_TRUE(diagnostics_.all().empty());
 }
 
 TEST_F(CurveReaderTest, CyclesAndUnknownCurvesAreDiagnostics) {

@@ -231,11 +231,50 @@ TEST(ReadIfc, CurtainWallOfPartsIsOneElementWithItsGlassApart) {
   EXPECT_EQ(plan.elements[0].storey, kNoIndex);
 }
 
+TEST(ReadIfc, CurtainWallOfNothingButADoorIsAWallWhereTheDoorIs) {
+  const Result result = Read(test::IfcText(R"(
+#10=IFCCURTAINWALL('curtain000000000000001',$,'C',$,$,$,$,$);
+#11=IFCRELAGGREGATES('rel0000000000000000001',$,$,$,#10,(#40));
+#12=IFCDIRECTION((0.,0.,1.));
+#13=IFCCURTAINWALL('curtain000000000000002',$,'Empty',$,$,$,$,$);
+#40=IFCDOOR('door000000000000000001',$,'D',$,$,$,#41,$,2.,1.);
+#41=IFCPRODUCTDEFINITIONSHAPE($,$,(#42));
+#42=IFCSHAPEREPRESENTATION($,'Body','SweptSolid',(#43));
+#43=IFCEXTRUDEDAREASOLID(#44,$,#12,2.);
+#44=IFCRECTANGLEPROFILEDEF(.AREA.,$,$,1.,0.05);
+)"));
+  const PlanIr& plan = *result.plan;
+  ASSERT_EQ(plan.elements.size(), 2u);
+  EXPECT_EQ(plan.elements[0].kind, ElementKind::kCurtainWall);
+  EXPECT_EQ(plan.elements[0].name, "C");
+  EXPECT_TRUE(plan.elements[0].body.empty());
+  EXPECT_NEAR(Volume(plan.elements[0].uncut), 0.1, 1e-9);
+  ASSERT_EQ(plan.openings.size(), 1u);
+  EXPECT_EQ(plan.openings[0].wall, 0u);
+  EXPECT_EQ(plan.openings[0].filling, 1u);
+  ASSERT_EQ(result.diagnostics.all().size(), 1u);  // of the empty one
+  EXPECT_EQ(result.diagnostics.all()[0].kind, DiagnosticKind::kWallWithoutBody);
+  EXPECT_EQ(result.diagnostics.all()[0].location.guid, "curtain000000000000002");
+}
+
+// Attributes 9 and 10 are widths and heights of doors and windows only.
+TEST(ReadIfc, CurtainWallInAnOpeningIsNotAskedForItsOverallHeight) {
+  std::string text = Scene();
+  const std::string door = "IFCDOOR('door000000000000000001',$,'D',$,$,#51,#52,$,2.,0.9)";
+  text.replace(text.find(door), door.size(), "IFCCURTAINWALL('door000000000000000001',$,'C',$,$,#51,#52,$,.NOTDEFINED.)");
+  const Result result = Read(text);
+  EXPECT_FALSE(result.Has(DiagnosticKind::kBadAttribute));
+  ASSERT_EQ(result.plan->openings.size(), 1u);
+  EXPECT_EQ(result.plan->openings[0].filling, 1u);
+  EXPECT_FALSE(result.plan->openings[0].height_m);
+}
+
 TEST(ReadIfc, TrueNorthIsWhereTheContextSays) {
   EXPECT_FALSE(Read(Scene()).plan->true_north_rad);
   const Result result = Read(test::IfcText(R"(
 #10=IFCGEOMETRICREPRESENTATIONCONTEXT($,'Model',3,1.E-5,$,#11);
 #11=IFCDIRECTION((-1.,0.));
+#12=IFCBUILDING('building00000000000001',$,'B',$,$,$,$,$,.ELEMENT.,$,$,$);
 )"));
   ASSERT_TRUE(result.plan && result.plan->true_north_rad);
   EXPECT_NEAR(*result.plan->true_north_rad, 3.14159265358979, 1e-12);
@@ -371,6 +410,35 @@ TEST(IfcFrontend, AMapConversionToWhereThePlanStandsIsSaid) {
   };
   EXPECT_TRUE(read("455020.").Has(DiagnosticKind::kGeoreferencedTwice));
   EXPECT_FALSE(read("4550200.").Has(DiagnosticKind::kGeoreferencedTwice));
+}
+
+TEST(IfcFrontend, AMapConversionInThePropertySetOfIfc2x3IsSaid) {
+  const auto read = [](const std::string& set_name, const std::string& northings) {
+    std::string text = kScene;
+    const std::string corner = "#13=IFCCARTESIANPOINT((10.,20.,3.));";
+    text.replace(text.find(corner), corner.size(), "#13=IFCCARTESIANPOINT((455000.,5430000.,3.));");
+    text += "#80=IFCPROPERTYSET('pset000000000000000080',$,'" + set_name + "',$,(#81,#82,#83));\n"
+            "#81=IFCPROPERTYSINGLEVALUE('TargetCRS',$,IFCLABEL('EPSG:25832'),$);\n"
+            "#82=IFCPROPERTYSINGLEVALUE('Eastings',$,IFCLENGTHMEASURE(455020.),$);\n"
+            "#83=IFCPROPERTYSINGLEVALUE('Northings',$," + northings + ",$);\n";
+    return Read(test::IfcText(text, "IFC2X3"));
+  };
+  EXPECT_TRUE(read("ePSet_MapConversion", "IFCLENGTHMEASURE(5430010.)").Has(DiagnosticKind::kGeoreferencedTwice));
+  EXPECT_TRUE(read("ePset_MapConversion", "IFCREAL(5430010.)").Has(DiagnosticKind::kGeoreferencedTwice));
+  EXPECT_FALSE(read("ePSet_MapConversion", "IFCLENGTHMEASURE(0.)").Has(DiagnosticKind::kGeoreferencedTwice));
+  EXPECT_FALSE(read("ePSet_MapConversion", "$").Has(DiagnosticKind::kGeoreferencedTwice));
+  EXPECT_FALSE(read("Other", "IFCLENGTHMEASURE(5430010.)").Has(DiagnosticKind::kGeoreferencedTwice));
+}
+
+TEST(IfcFrontend, WhatHasNoBuildingIsRefused) {
+  for (const std::string data : {"", "#10=PRODUCT('bracket','bracket','',(#11));\n#11=PRODUCT_CONTEXT('',$,'mechanical');",
+                                 "#10=FOO(1,2,3);\n#11=BAR('wall',#10);", "#10=IFCWALLTYPE('type000000000000000001',$,'T',$,$,$,$,$,$,.STANDARD.);"}) {
+    const Result result = Read(test::IfcText(data));
+    EXPECT_FALSE(result.plan) << data;
+    EXPECT_TRUE(result.Has(DiagnosticKind::kNoBuilding)) << data;
+  }
+  EXPECT_TRUE(Read(test::IfcText("#10=IFCBUILDING('building00000000000001',$,'B',$,$,$,$,$,.ELEMENT.,$,$,$);")).plan);
+  EXPECT_TRUE(Read(test::IfcText("#10=IFCSLAB('slab000000000000000001',$,'S',$,$,$,$,$,$);")).plan);
 }
 
 }  // namespace

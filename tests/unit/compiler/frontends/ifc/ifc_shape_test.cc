@@ -236,6 +236,34 @@ TEST_F(ShapeReaderTest, FarCoordinatesAndHugeAnglesAreBounded) {
   EXPECT_EQ(ArcSegments(1, std::nan(""), 0.001), 1);
 }
 
+TEST_F(ShapeReaderTest, RoundPrimitivesKeepWithinTheTolerance) {
+  const std::string at = "#11=IFCAXIS2PLACEMENT3D(#12,$,$);\n#12=IFCCARTESIANPOINT((1.,2.,3.));";
+  const auto check = [&](const std::string& item, double volume_m3, const Eigen::Vector3d& low, const Eigen::Vector3d& high, double round_m2) {
+    SCOPED_TRACE(item);
+    const ShapeParts parts = ReadItem("#10=" + item + ";\n" + at, "#10", "CSG");
+    ASSERT_EQ(parts.size(), 1u);
+    EXPECT_TRUE(IsClosed(parts[0].solid));
+    EXPECT_LE(Volume(parts[0].solid), volume_m3 + 1e-9);
+    EXPECT_GE(Volume(parts[0].solid), volume_m3 - round_m2 * 2 * options_.chord_tolerance_m - 1e-9);  // chords in two directions
+    const Eigen::AlignedBox3d box = Bounds(parts[0].solid);
+    EXPECT_LE((box.min() - low).cwiseAbs().maxCoeff(), options_.chord_tolerance_m) << box.min().transpose();
+    EXPECT_LE((box.max() - high).cwiseAbs().maxCoeff(), options_.chord_tolerance_m) << box.max().transpose();
+  };
+  check("IFCSPHERE(#11,0.5)", kPi / 6, {0.5, 1.5, 2.5}, {1.5, 2.5, 3.5}, kPi);
+  check("IFCRIGHTCIRCULARCONE(#11,3.,0.5)", kPi / 4, {0.5, 1.5, 3}, {1.5, 2.5, 6}, kPi / 2 * std::hypot(3, 0.5));
+  check("IFCRIGHTCIRCULARCYLINDER(#11,3.,0.5)", 3 * kPi / 4, {0.5, 1.5, 3}, {1.5, 2.5, 6}, 3 * kPi);
+  check("IFCRECTANGULARPYRAMID(#11,2.,3.,1.5)", 3, {1, 2, 3}, {3, 5, 4.5}, 0);
+  check("IFCBLOCK(#11,2.,3.,1.5)", 9, {1, 2, 3}, {3, 5, 4.5}, 0);
+}
+
+TEST_F(ShapeReaderTest, PrimitivesWithoutExtentAreDiagnosed) {
+  for (const std::string item : {"IFCSPHERE($,0.)", "IFCRIGHTCIRCULARCONE($,-1.,0.5)", "IFCRECTANGULARPYRAMID($,1.,0.,1.)"}) {
+    EXPECT_TRUE(ReadItem("#10=" + item + ";", "#10", "CSG").empty()) << item;
+    ASSERT_FALSE(diagnostics_.all().empty()) << item;
+    EXPECT_EQ(diagnostics_.all().back().kind, DiagnosticKind::kDegenerateGeometry);
+  }
+}
+
 TEST_F(ShapeReaderTest, OperatorsThatDoubleAtEachLevelAreCutOff) {
   options_.max_triangles_per_element = 5000;
   std::string data = kBox;

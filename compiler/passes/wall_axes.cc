@@ -100,8 +100,8 @@ std::optional<WallAxis> AxisOfArcs(const std::vector<Arc>& arcs) {
   const double thickness = outer->radius_m - inner->radius_m;
   if (thickness <= 0 || (outer->center - inner->center).norm() > 0.1 * thickness) return std::nullopt;
   const double radius = 0.5 * (inner->radius_m + outer->radius_m);
-  const auto at = [&](double angle) -> Eigen::Vector2d {
-    return outer->center + radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+  const auto at = [radius, &center = outer->center](double angle) -> Eigen::Vector2d {
+    return center + radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
   };
   return WallAxis{at(outer->start_rad), at(outer->start_rad + outer->sweep_rad), thickness};
 }

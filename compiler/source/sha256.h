@@ -6,7 +6,7 @@
 
 namespace plumb::compiler {
 
-// 64 lower-case hexadecimal digits. `portable`: without the processor's SHA instructions, where it has some.
-[[nodiscard]] std::string Sha256Hex(std::string_view bytes, bool portable = false);
+// 64 lower-case hexadecimal digits.
+[[nodiscard]] std::string Sha256Hex(std::string_view bytes);
 
 }  // namespace plumb::compiler

@@ -72,7 +72,12 @@ class RoomFinder {
         sink_(sink),
         below_(plan, {ElementKind::kSlab, ElementKind::kRoof, ElementKind::kCovering, ElementKind::kGround}),
         standing_(plan, {ElementKind::kSlab, ElementKind::kRoof, ElementKind::kGround, ElementKind::kStair}),
-        above_(plan, {ElementKind::kSlab, ElementKind::kRoof, ElementKind::kCovering}) {}
+        above_(plan, {ElementKind::kSlab, ElementKind::kRoof, ElementKind::kCovering}),
+        has_walls_(graph.storeys.size(), false) {
+    for (const PlanWall& wall : floors.walls) {
+      if (wall.storey < has_walls_.size()) has_walls_[wall.storey] = true;
+    }
+  }
 
   RoomsByFace Run() {
     RoomsByFace out;
@@ -186,12 +191,13 @@ class RoomFinder {
     return false;
   }
 
-  // Of the level's storeys the one whose zero is nearest to the floor; the lower one on a tie.
+  // Of the level's storeys with walls (all, if none has any: some files have a roof or a site as a storey at zero) the one whose zero is
+  // nearest to the floor; the lower one on a tie.
   StoreyId StoreyAt(const Level& level, double floor_z_m) const {
+    const auto rank = [&](uint32_t s) { return std::pair(!has_walls_[s], std::abs(graph_.storeys[s].elevation_m - floor_z_m)); };
     uint32_t best = level.first_storey;
     for (uint32_t s = level.first_storey; s <= level.last_storey; ++s) {
-      const auto distance = [&](uint32_t i) { return std::abs(graph_.storeys[i].elevation_m - floor_z_m); };
-      if (distance(s) < distance(best)) best = s;
+      if (rank(s) < rank(best)) best = s;
     }
     return StoreyId(best);
   }
@@ -202,6 +208,7 @@ class RoomFinder {
   AGraph& graph_;
   DiagnosticSink& sink_;
   VerticalProbe below_, standing_, above_;
+  std::vector<bool> has_walls_;  // by storey
 };
 
 }  // namespace

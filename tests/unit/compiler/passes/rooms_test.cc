@@ -26,6 +26,25 @@ TEST(FindRooms, TwoRoomsAndADoor) {
   EXPECT_EQ(west->guid, "space-West");
 }
 
+// Some files have the roof or the site as a storey at zero, just below the ground floor.
+TEST(FindRooms, AStoreyWithoutWallsHasNoRoomsIfOneCloseByHasWalls) {
+  test::PlanBuilder b;
+  b.plan = test::TwoRooms();
+  PlanStorey roof = b.plan.storeys[0];
+  roof.name = "Roof";
+  b.plan.storeys[0].elevation_m = 0.18;
+  b.plan.storeys.insert(b.plan.storeys.begin(), roof);
+  for (PlanElement& e : b.plan.elements) ++e.storey;
+  for (PlanSpace& s : b.plan.spaces) ++s.storey;
+  const AGraph graph = Build(b.plan).graph;
+  ASSERT_EQ(graph.rooms.size(), 2u);
+  for (const Room& room : graph.rooms) {
+    EXPECT_DOUBLE_EQ(room.floor_z_m, 0) << "nearer to the roof's zero";
+    EXPECT_EQ(graph.storeys[room.storey.index()].name, graph.storeys[graph.walls[0].storey.index()].name);
+    EXPECT_NE(graph.storeys[room.storey.index()].name, "Roof");
+  }
+}
+
 TEST(FindRooms, AnLShapedRoomHasSixCorners) {
   test::PlanBuilder b;
   b.Storey("0", 0);

@@ -266,11 +266,36 @@ std::string Contents(const AGraph& graph) {
          count(graph.storeys.size(), "storey");
 }
 
+// Rooms that have a twin which a robot in them cannot tell them from, wherever it can drive from there.
+size_t CountRoomsWithTwins(const AGraph& graph) {
+  std::vector<bool> has_twin(graph.rooms.size(), false);
+  for (const Alias& alias : graph.aliases) {
+    if (!alias.closed) continue;
+    for (const std::vector<RoomId>* rooms : {&alias.rooms, &alias.twins}) {
+      for (const RoomId room : *rooms) has_twin[room.index()] = true;
+    }
+  }
+  return static_cast<size_t>(std::count(has_twin.begin(), has_twin.end(), true));
+}
+
+// Of a plan without errors.
+void Judge(const AGraph& graph, bool judge_places, size_t doubts, Report& out) {
+  const size_t alike = judge_places ? CountRoomsWithTwins(graph) : 0;
+  if (alike > 0 && alike == graph.rooms.size()) {
+    out.outcome = Outcome::kFindings;
+    out.answer = fmt::format("no robot can tell where it is in this: each room has a twin that looks alike ({})", Contents(graph));
+    return;
+  }
+  out.answer = fmt::format("a robot can localize in this ({})", Contents(graph));
+  if (alike > 0) out.answer += fmt::format(", but not in {} of the rooms, which have twins that look alike", alike);
+  else if (doubts > 0) out.answer += ", but see the warnings";
+}
+
 }  // namespace
 
 std::vector<Diagnostic> ValidateGraph(const AGraph& graph) { return Validator(graph).Run(); }
 
-Report ReportOf(const std::string& path, const CompileResult& result, bool strict) {
+Report ReportOf(const std::string& path, const CompileResult& result, bool strict, bool judge_places) {
   Report out{path, result.diagnostics.all(), Outcome::kFine, {}};
   const size_t errors = result.diagnostics.Count(Severity::kError), warnings = strict ? result.diagnostics.Count(Severity::kWarning) : 0;
   if (result.has_internal_error()) {
@@ -284,14 +309,13 @@ Report ReportOf(const std::string& path, const CompileResult& result, bool stric
     out.answer = fmt::format("no robot should localize in this before {} finding{} mended ({})", errors + warnings,
                              errors + warnings == 1 ? " is" : "s are", Contents(*result.graph));
   } else {
-    const size_t doubts = result.diagnostics.Count(Severity::kWarning);
-    out.answer = fmt::format("a robot can localize in this ({}){}", Contents(*result.graph), doubts == 0 ? "" : ", but see the warnings");
+    Judge(*result.graph, judge_places, result.diagnostics.Count(Severity::kWarning), out);
   }
   return out;
 }
 
 Report ValidateFile(const std::string& path, const ValidateOptions& options) {
-  return ReportOf(path, IsAGraph(path) ? ReadGraph(path) : Compile(path, options.compile), options.strict);
+  return ReportOf(path, IsAGraph(path) ? ReadGraph(path) : Compile(path, options.compile), options.strict, true);
 }
 
 }  // namespace plumb::compiler

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <new>
+#include <numbers>
 
 #include "schema/agraph_generated.h"
 #include "schema/checksum.h"
@@ -208,7 +209,11 @@ class Checker {
     for (size_t i = 0; i < graph_.surfaces.size(); ++i) {
       const Surface& s = graph_.surfaces[i];
       Finite("surface", i, s.normal, s.d_m, s.start, s.end, s.z_min_m, s.z_max_m);
-      if (s.arc) Finite("surface", i, s.arc->center, s.arc->radius_m, s.arc->start_rad, s.arc->sweep_rad);
+      if (s.arc) {
+        constexpr double kFullCircle_rad = 2 * std::numbers::pi + 1e-6;
+        Finite("surface", i, s.arc->center, s.arc->radius_m, s.arc->start_rad, s.arc->sweep_rad);
+        if (!(s.arc->radius_m > 0) || std::abs(s.arc->sweep_rad) > kFullCircle_rad) Fault("surface", i, "the arc is no part of a circle");
+      }
       if (std::abs(s.normal.norm() - 1) > 1e-6) Fault("surface", i, "the normal is no unit vector");
       Reference("surface", i, s.wall, graph_.walls.size(), false);
       Reference("surface", i, s.storey, storeys, true);

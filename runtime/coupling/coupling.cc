@@ -63,14 +63,17 @@ std::vector<uint32_t> SeenInOpenings(const SGraph& map, const MapSurface& seen, 
   axes.col(0).head<2>() = along;
   axes(2, 1) = 1;
   const Eigen::Vector2d margin = Eigen::Vector2d::Constant(kOpeningMargin_m);
+  // Sums of squares of a georeferenced plan's coordinates would leave nothing of the variance.
+  const Eigen::Translation3d T_face_plan(-surface.start.x(), -surface.start.y(), 0);
   for (uint32_t i = 0; i < seen.observations.size(); ++i) {
     const Observation& o = seen.observations[i];
-    const PlaneStats stats = o.stats.Transformed(T_plan_map * map.keyframes[o.keyframe].T_map_kf);
+    const PlaneStats stats = o.stats.Transformed(T_face_plan * T_plan_map * map.keyframes[o.keyframe].T_map_kf);
     const Eigen::Vector2d middle = axes.transpose() * stats.C.col(3) / stats.count();
     const Eigen::Vector2d variance = (axes.transpose() * stats.C * axes).diagonal() / stats.count() - middle.cwiseAbs2();
     const Eigen::Vector2d reach = kHalfExtentSigmas * variance.cwiseMax(0.0).cwiseSqrt();
     const bool inside = std::any_of(openings.begin(), openings.end(), [&](const WallOpening& w) {
-      const Eigen::Vector2d lo(along.dot(w.middle) - 0.5 * w.width_m, w.z_min_m), hi(along.dot(w.middle) + 0.5 * w.width_m, w.z_max_m);
+      const double u = along.dot(w.middle - surface.start);
+      const Eigen::Vector2d lo(u - 0.5 * w.width_m, w.z_min_m), hi(u + 0.5 * w.width_m, w.z_max_m);
       const Eigen::Vector2d covered = (middle + reach).cwiseMin(hi + margin) - (middle - reach).cwiseMax(lo - margin);
       return (covered.array() >= kInOpeningRatio * 2 * reach.array()).all();
     });

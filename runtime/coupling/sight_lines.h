@@ -34,6 +34,7 @@ class SightLines {
   struct Line {
     Eigen::Vector3f from, to;
   };
+  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();  // of the lines, plan frame: single precision is too coarse at a georeferenced plan's coordinates
   std::vector<Line> lines_;
 };
 

@@ -7,7 +7,7 @@
 namespace plumb::runtime {
 namespace {
 
-constexpr int kMaxFailedScans = 10;
+constexpr int kMaxFailedScans = 3;  // in a row: from then on nobody knows where the robot went meanwhile
 
 // Milliseconds since construction or the last call of Lap.
 class Stopwatch {
@@ -79,11 +79,16 @@ struct Localizer::Impl {
   JointResult joint;
   Eigen::Isometry3d T_plan_map = Eigen::Isometry3d::Identity();  // of the last fix
   bool ever_fixed = false;
+  bool is_placed = false;  // T_plan_map is where the present map lies, even while nobody knows where in it the robot is
   int failed_scans = 0;  // in a row
   std::vector<WallDeviation> known;  // per plan wall, as estimated so far
   std::vector<Eigen::Isometry3d> rivals;  // of the fix, T_plan_map each
   int votes_against = 0;
   std::vector<ScanPlace> places;
+  // Of maps that were given up while they lay in the plan.
+  Trajectory earlier_poses;
+  std::vector<SurfaceDeviation> earlier_surfaces;
+  std::vector<RoomDeviation> earlier_rooms;
 
   void ForgetFix() {
     known.assign(plan.walls.size(), {});
@@ -106,7 +111,7 @@ struct Localizer::Impl {
     T_plan_map = match.hypotheses.front().T_plan_map;
     for (size_t i = 1; i < match.hypotheses.size(); ++i) rivals.push_back(match.hypotheses[i].T_plan_map);
     verdict = Verdict::kLocalized;
-    ever_fixed = true;
+    ever_fixed = is_placed = true;
     Optimize(false);
   }
 
@@ -135,6 +140,8 @@ struct Localizer::Impl {
     votes_against = best_rival > own + options.rival_margin_nats ? votes_against + 1 : 0;
     if (votes_against < options.lost_after) return;
     verdict = Verdict::kLost;
+    is_placed = false;
+    HoldPose();
     // The plan has bent the map to a wrong place: back to what odometry says. (Surfaces that were merged meanwhile stay merged.)
     for (Keyframe& keyframe : mapper.mutable_graph().keyframes) keyframe.T_map_kf = keyframe.T_odom_kf;
     mapper.OnPosesChanged();
@@ -163,12 +170,60 @@ struct Localizer::Impl {
     places.push_back({stamp_s, keyframes.empty() ? 0 : keyframes.back().id, T_odom_lidar});
   }
 
-  // Scans that registration could not place stay out of the map; after a second of them nobody knows where the robot is.
+  // Scans that registration could not place stay out of the map, which still lies where it did: so does the robot, once it is found in it again.
   void CountFailures(bool ok) {
     failed_scans = ok ? 0 : failed_scans + 1;
-    if (failed_scans < kMaxFailedScans || verdict != Verdict::kLocalized) return;
-    verdict = Verdict::kLost;
+    if (verdict == Verdict::kLocalized && failed_scans >= kMaxFailedScans) verdict = Verdict::kLost;
+    if (verdict == Verdict::kLost && is_placed && ok) verdict = Verdict::kLocalized;
+  }
+
+  // From now on the pose is odometry's, going on from where it is.
+  void HoldPose() { T_plan_map = T_plan_map * mapper.T_map_odom(); }
+
+  // Odometry has begun a new map: what is seen now is not tied to what was seen before, so neither must the graph be.
+  void StartOver() {
+    if (is_placed) Archive();
+    is_placed = false;
+    HoldPose();
+    mapper = Mapper(options.mapper);
+    places.clear();
+    match = {};
+    verdict = ever_fixed ? Verdict::kLost : Verdict::kSearching;
     ForgetFix();
+  }
+
+  // Keeps what a map that lies in the plan has to say, before it is given up.
+  void Archive() {
+    mapper.Flush();
+    Optimize(true);
+    const Trajectory poses = SmoothedPoses();
+    earlier_poses.insert(earlier_poses.end(), poses.begin(), poses.end());
+    DeviationReport report = Deviations();
+    earlier_surfaces = std::move(report.surfaces);
+    earlier_rooms = std::move(report.rooms);
+  }
+
+  [[nodiscard]] Trajectory SmoothedPoses() const {
+    Trajectory out;
+    out.reserve(places.size());
+    const std::vector<Keyframe>& keyframes = mapper.graph().keyframes;
+    for (const ScanPlace& place : places) {
+      const Keyframe& keyframe = keyframes[place.keyframe];  // there is one: the fix came after it
+      out.push_back({place.stamp_s, T_plan_map * keyframe.T_map_kf * keyframe.T_odom_kf.inverse() * place.T_odom_lidar});
+    }
+    return out;
+  }
+
+  // What only an earlier map saw is as that one saw it.
+  [[nodiscard]] DeviationReport Deviations() const {
+    DeviationReport report = AssessDeviations(plan, joint, options.deviations);
+    for (size_t i = 0; i < earlier_surfaces.size(); ++i) {
+      if (report.surfaces[i].status == SurfaceStatus::kUnobserved) report.surfaces[i] = earlier_surfaces[i];
+    }
+    for (size_t i = 0; i < earlier_rooms.size(); ++i) {
+      if (report.rooms[i].status == SurfaceStatus::kUnobserved) report.rooms[i] = earlier_rooms[i];
+    }
+    return report;
   }
 };
 
@@ -181,11 +236,13 @@ ScanVerdict Localizer::AddScan(const Scan& scan, const std::optional<Odometry::G
   Stopwatch watch;
   const OdometryResult registered = impl_->odometry.Register(scan, given);
   out.timing.push_back({"odometry", watch.Lap()});
-  impl_->CountFailures(registered.ok);
-  const bool grew = registered.ok && impl_->mapper.AddScan(registered.deskewed, registered.T_odom_lidar);
+  out.timed = registered.timed;
+  if (registered.restarted) impl_->StartOver();
+  impl_->CountFailures(registered.ok || registered.restarted);
+  const bool grew = (registered.ok || registered.restarted) && impl_->mapper.AddScan(registered.deskewed, registered.T_odom_lidar);
   out.timing.push_back({"mapping", watch.Lap()});
   if (grew) impl_->UpdateGraph(out.timing);
-  impl_->Remember(scan.stamp_s, registered.T_odom_lidar);
+  if (registered.ok || registered.restarted) impl_->Remember(scan.stamp_s, registered.T_odom_lidar);
   out.verdict = impl_->verdict;
   out.hypotheses = out.verdict == Verdict::kLocalized ? 1 : static_cast<int>(impl_->match.hypotheses.size());
   if (impl_->ever_fixed) {
@@ -207,17 +264,13 @@ std::optional<Eigen::Isometry3d> Localizer::T_plan_map() const {
 const SGraph& Localizer::map() const { return impl_->mapper.graph(); }
 const MatchResult& Localizer::last_match() const { return impl_->match; }
 const JointResult& Localizer::estimate() const { return impl_->joint; }
-DeviationReport Localizer::Deviations() const { return AssessDeviations(impl_->plan, impl_->joint, impl_->options.deviations); }
+DeviationReport Localizer::Deviations() const { return impl_->Deviations(); }
 
 Trajectory Localizer::SmoothedTrajectory() const {
-  Trajectory out;
+  Trajectory out = impl_->earlier_poses;
   if (impl_->verdict != Verdict::kLocalized) return out;
-  const std::vector<Keyframe>& keyframes = impl_->mapper.graph().keyframes;
-  out.reserve(impl_->places.size());
-  for (const ScanPlace& place : impl_->places) {
-    const Keyframe& keyframe = keyframes[place.keyframe];  // there is one: the fix came after it
-    out.push_back({place.stamp_s, impl_->T_plan_map * keyframe.T_map_kf * keyframe.T_odom_kf.inverse() * place.T_odom_lidar});
-  }
+  const Trajectory poses = impl_->SmoothedPoses();
+  out.insert(out.end(), poses.begin(), poses.end());
   return out;
 }
 

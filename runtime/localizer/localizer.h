@@ -41,6 +41,7 @@ struct ScanVerdict {
   double stamp_s = 0;
   Verdict verdict = Verdict::kSearching;
   int hypotheses = 0;
+  bool timed = false;  // per-point times were usable; else "deskew off"
   std::optional<Eigen::Isometry3d> T_plan_lidar;  // at the stamp, from the first fix on; when lost, dead reckoning from the last one
   std::vector<StageTime> timing;
 };
@@ -63,11 +64,12 @@ class Localizer {
 
   // Where the map lies in the plan; none while not localized.
   [[nodiscard]] std::optional<Eigen::Isometry3d> T_plan_map() const;
-  [[nodiscard]] const SGraph& map() const;
+  [[nodiscard]] const SGraph& map() const;  // the present one
   [[nodiscard]] const MatchResult& last_match() const;
   [[nodiscard]] const JointResult& estimate() const;
   [[nodiscard]] DeviationReport Deviations() const;
-  // All scans, plan frame, with all knowledge so far; empty while not localized.
+  // Plan frame, with all knowledge so far: all scans that could be registered to the present map, if it lies in the plan, after those of maps that were given up because the
+  // robot was carried off (odometry.h: restarted).
   [[nodiscard]] Trajectory SmoothedTrajectory() const;
 
  private:

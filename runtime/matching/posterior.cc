@@ -132,11 +132,14 @@ MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, con
     result.reason = fmt::format("a mirror image of the plan fits about as well ({:+.1f} nats)", wrong.mirrored - best.log_likelihood);
     return result;
   }
-  result.reason = Doubt(sorted.front(), best, RequiredPlanes(plan.rooms.size(), options), rays_vouch, wrong.scaled, options);
-  if (!result.reason.empty()) return result;
   const auto rivals = std::count_if(result.hypotheses.begin() + 1, result.hypotheses.end(), [&](const Hypothesis& h) {
     return best.log_likelihood - h.log_likelihood < options.accept_margin_nats;
   });
+  result.reason = Doubt(sorted.front(), best, RequiredPlanes(plan.rooms.size(), options), rays_vouch, wrong.scaled, options);
+  if (!result.reason.empty()) {
+    if (rivals > 0) result.reason += fmt::format("; {} other places in the plan look alike", rivals);
+    return result;
+  }
   if (rivals > 0) {
     result.verdict = MatchResult::Verdict::kAmbiguous;
     result.reason = fmt::format("{} other places in the plan look alike", rivals);

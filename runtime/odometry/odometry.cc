@@ -19,7 +19,8 @@ namespace {
 constexpr double kMaxTilt_rad = 0.1745;         // the sensor starts this upright
 constexpr double kLevelingVoxel_m = 1.0;        // wide enough for two rings on the floor
 constexpr int kMinFirstPoints = 200;
-constexpr int kMaxFailures = 5;                 // in a row; then the map goes on from the predicted pose
+constexpr int kMaxFailures = 10;                // in a row, scans without points not counted; then a new map begins at the predicted pose
+constexpr double kLeastShare = 0.4;             // of what the last scan found on the map, the next finds so much; less is another place
 constexpr double kSureGap_s = 0.25;             // after longer gaps the robot may have turned any way
 constexpr size_t kSearchPoints = 800;
 constexpr std::array<double, 7> kSearchYaw_rad = {0, 0.2, -0.2, 0.4, -0.4, 0.6, -0.6};
@@ -113,13 +114,15 @@ struct Odometry::Impl {
   SurfelMap map;
   std::optional<PreparedScan> first;  // until the second scan tells how fast the first one moved
   bool started = false;
-  int failures = 0;
+  int failures = 0;         // in a row: nothing says where the robot went meanwhile
+  int misfits = 0;          // of these, scans with enough points: the map is not of this place
   // Of the last scan.
   double stamp_s = 0, sweep_s = 0;
   SweepMotion motion;
   Matrix12d covariance = Matrix12d::Zero();  // of `motion`'s start and motion during the sweep
   Twist twist;
   std::optional<GivenMotion> last_given;
+  double found_share = 0;   // of the last registered scan's points that lay on the map
   double prediction_error2_m2 = 0.04;  // running mean square of what predictions move points by, wrongly
 };
 
@@ -288,6 +291,7 @@ OdometryResult Odometry::Register(const Scan& scan, const std::optional<GivenMot
   OdometryResult result;
   const PreparedScan prepared = PrepareScan(scan, s.options.scan_spacing_m, s.options.min_range_m, s.options.max_range_m);
   const std::optional<GivenMotion> given = Plausible(given_motion, prepared.sweep_s);
+  result.timed = prepared.sweep_s > 0;
   const bool too_few = static_cast<int>(prepared.points.size()) < kMinFirstPoints;
   if (!s.started) {
     if (!too_few) s.Start(prepared, given);
@@ -297,13 +301,24 @@ OdometryResult Odometry::Register(const Scan& scan, const std::optional<GivenMot
     const double gap_s = scan.stamp_s - s.stamp_s - s.sweep_s;
     RegistrationResult aligned = s.Align(prepared, prior, gap_s);
     if (aligned.ok && s.first) s.RestartWithVelocity(prepared, prior, &aligned);
+    const double found = prepared.points.empty() ? 0 : static_cast<double>(aligned.num_inliers) / static_cast<double>(prepared.points.size());
+    // A floor, a ceiling and some wall or other are found anywhere.
+    aligned.ok = aligned.ok && found >= kLeastShare * s.found_share;
+    if (aligned.ok) s.found_share = found;
     if (!aligned.ok) {
       aligned.motion = prior.mean;
       aligned.covariance = prior.covariance;
     }
     s.failures = aligned.ok ? 0 : s.failures + 1;
     if (aligned.ok && !s.first) s.LearnPredictionError(prior.mean, aligned.motion);
-    if (aligned.ok || (s.failures >= kMaxFailures && !too_few)) s.Insert(prepared, aligned.motion);
+    if (!too_few) s.misfits = aligned.ok ? 0 : s.misfits + 1;
+    result.restarted = s.misfits >= kMaxFailures;
+    if (result.restarted) {
+      s.map = SurfelMap(s.map.options());
+      s.misfits = s.failures = 0;
+      s.found_share = 0;
+    }
+    if (aligned.ok || result.restarted) s.Insert(prepared, aligned.motion);
     s.first.reset();  // `motion` is the first scan's only until now
     s.Advance(prepared, aligned, given);
     result.ok = aligned.ok;

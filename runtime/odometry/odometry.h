@@ -25,6 +25,9 @@ struct OdometryOptions {
 
 struct OdometryResult {
   bool ok = false;               // false: pose is a prediction only
+  // A second of scans found no place on the map: a new map begins with this one, at a predicted pose. What was mapped before is not tied to it.
+  bool restarted = false;
+  bool timed = false;            // per-point times were usable; else points are taken to be of the stamp, "deskew off"
   // At the scan's stamp. odom: origin and yaw of the first scan, z up (from floor, ceiling or walls in the first scan, else its own z axis).
   Eigen::Isometry3d T_odom_lidar = Eigen::Isometry3d::Identity();
   Scan deskewed;                 // finite points in range, in the lidar frame at the scan's stamp; time_s empty
@@ -39,7 +42,7 @@ class Odometry {
   ~Odometry();
 
   // Registers the next scan. `given`: pose of the lidar in a given odometry's own frame at (scan start, scan end), used as a prior for the
-  // motion; the planes seen decide where they can. Never fails: a scan without enough points on the map gets the predicted pose.
+  // motion; the planes seen decide where they can. A scan without enough points on the map gets the predicted pose.
   struct GivenMotion { Eigen::Isometry3d T_start, T_end; };
   [[nodiscard]] OdometryResult Register(const Scan& scan, const std::optional<GivenMotion>& given);
 

@@ -24,8 +24,8 @@ bool UsableTimes(const Scan& scan, double* sweep_s) {
   if (scan.time_s.size() != scan.points.size() || scan.time_s.empty()) return false;
   float last_s = 0;
   for (const float t : scan.time_s) {
-    if (!std::isfinite(t) || t < -1e-3f) return false;
-    last_s = std::max(last_s, t);
+    if (t < -1e-3f) return false;  // recordings give the stamp of the first point
+    if (std::isfinite(t)) last_s = std::max(last_s, t);
   }
   *sweep_s = last_s;
   return last_s >= kMinSweep_s && last_s <= kMaxSweep_s;
@@ -52,6 +52,7 @@ PreparedScan PrepareScan(const Scan& scan, double spacing_m, double min_range_m,
     const Eigen::Vector3d p = scan.points[i].cast<double>();
     const double range2_m2 = p.squaredNorm();
     if (!(range2_m2 >= min_range2_m2 && range2_m2 <= max_range2_m2)) continue;  // NaN fails too
+    if (timed && !std::isfinite(scan.time_s[i])) continue;
     out.scan.points.push_back(scan.points[i]);
     if (with_intensity) out.scan.intensity.push_back(scan.intensity[i]);
     if (with_ring) out.scan.ring.push_back(scan.ring[i]);

@@ -44,9 +44,8 @@ struct JointProblem::Impl {
 
   void AddKeyframes() {
     for (auto& pose : state.poses) problem.AddParameterBlock(pose.data(), kPoseSize, &pose_manifold);
-    problem.AddResidualBlock(
-        Cost<AnchorResidual, 6, kPoseSize>({PoseOf(state.poses[0]), kAnchorSigma_m, kAnchorSigma_rad, options.gravity_sigma_rad}), nullptr,
-        state.poses[0].data());
+    problem.AddResidualBlock(Cost<AnchorResidual, 6, kPoseSize>({Anchor(), kAnchorSigma_m, kAnchorSigma_rad, options.gravity_sigma_rad}), nullptr,
+                             state.poses[0].data());
     for (size_t i = 1; i < map.keyframes.size(); ++i) {
       const Keyframe &a = map.keyframes[i - 1], &b = map.keyframes[i];
       const Eigen::Isometry3d step = a.T_odom_kf.inverse() * b.T_odom_kf;
@@ -58,6 +57,15 @@ struct JointProblem::Impl {
       problem.AddResidualBlock(Cost<OdometryResidual, 6, kPoseSize, kPoseSize>({step, sigma_m, sigma_rad}), &odometry_loss,
                                state.poses[i - 1].data(), state.poses[i].data());
     }
+  }
+
+  // Where the first keyframe is, but upright as odometry measured it: of the present estimate, gravity would be a prior that follows the data.
+  [[nodiscard]] Eigen::Isometry3d Anchor() const {
+    Eigen::Isometry3d T = PoseOf(state.poses[0]);
+    const Eigen::Matrix3d& R_odom = map.keyframes[0].T_odom_kf.linear();
+    const Eigen::Matrix3d turn = T.linear() * R_odom.transpose();
+    T.linear() = Eigen::AngleAxisd(std::atan2(turn(1, 0) - turn(0, 1), turn(0, 0) + turn(1, 1)), Eigen::Vector3d::UnitZ()) * R_odom;
+    return T;
   }
 
   void AddPlaceAndBias(const std::vector<Match>& matches) {

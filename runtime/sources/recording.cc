@@ -21,6 +21,18 @@ std::optional<double> ParseStamp(const std::string& stem) {
   return number ? std::optional(stamp_s) : std::nullopt;
 }
 
+// Some drivers stamp the sweep's end: their points come before it.
+void StampAtFirstPoint(Scan& scan) {
+  constexpr float kRounding_s = 1e-3f, kLongest_s = 2.0f;  // further off, the times are broken
+  float first_s = 0;
+  for (const float t : scan.time_s) {
+    if (t < first_s) first_s = t;
+  }
+  if (first_s > -kRounding_s || first_s < -kLongest_s) return;
+  scan.stamp_s += first_s;
+  for (float& t : scan.time_s) t -= first_s;
+}
+
 }  // namespace
 
 std::string ScanFileName(double stamp_s) { return fmt::format("{:020.9f}.pcd", stamp_s); }
@@ -57,6 +69,10 @@ Expected<Recording> Recording::Open(const std::string& folder) {
   return recording;
 }
 
-Expected<Scan> Recording::Read(size_t i) const { return ReadPcd(scan_paths_[i], stamps_s_[i]); }
+Expected<Scan> Recording::Read(size_t i) const {
+  Expected<Scan> scan = ReadPcd(scan_paths_[i], stamps_s_[i]);
+  if (scan) StampAtFirstPoint(*scan);
+  return scan;
+}
 
 }  // namespace plumb::runtime

@@ -49,7 +49,8 @@ class Recording {
   [[nodiscard]] static Expected<Recording> Open(const std::string& folder);
 
   [[nodiscard]] size_t size() const { return scan_paths_.size(); }
-  [[nodiscard]] double stamp_s(size_t i) const { return stamps_s_[i]; }
+  [[nodiscard]] double stamp_s(size_t i) const { return stamps_s_[i]; }  // as the file is named
+  // Where points come before the stamp, as from drivers that stamp the sweep's end, the scan's stamp is that of its first point.
   [[nodiscard]] Expected<Scan> Read(size_t i) const;
   // Given odometry, any start frame; empty if the recording has none.
   [[nodiscard]] const Trajectory& odometry() const { return odometry_; }

@@ -19,7 +19,7 @@ struct EvaluateFlags {
   double wrong_fix_deg = 20;
   EvaluateOptions options;
   // What has to hold; none: nothing is asked.
-  std::optional<double> within_s, ate_m, deviation_m;
+  std::optional<double> within_s, ate_m, deviation_m, rotation_deg;
 };
 
 std::vector<std::string> UnmetRequirements(const Evaluation& e, const EvaluateFlags& flags) {
@@ -33,6 +33,9 @@ std::vector<std::string> UnmetRequirements(const Evaluation& e, const EvaluateFl
     if (e.CountWalls(WallOutcome::kUnobserved) > 0) unmet.emplace_back("a deviated wall was not observed");
     if (e.CountWalls(WallOutcome::kFalse) > 0) unmet.emplace_back("a wall was reported that stands as planned");
     if (e.max_translation_error_m() >= *flags.deviation_m) unmet.push_back(fmt::format("a deviation is off by {} m or more", *flags.deviation_m));
+  }
+  if (flags.rotation_deg && e.max_rotation_error_deg() >= *flags.rotation_deg) {
+    unmet.push_back(fmt::format("the turn of a deviated wall is off by {} deg or more", *flags.rotation_deg));
   }
   return unmet;
 }
@@ -71,6 +74,7 @@ void AddEvaluate(CLI::App& app, Session& session) {
   sub->add_option("--require-localized-within", flags->within_s, "finding unless localized after this long, and never wrongly, s");
   sub->add_option("--require-ate", flags->ate_m, "finding unless the ATE is below this, m");
   sub->add_option("--require-deviations", flags->deviation_m, "finding unless all deviated walls are found to within this, and no others, m");
+  sub->add_option("--require-rotation", flags->rotation_deg, "finding unless the turns of all deviated walls are found to within this, deg");
   sub->callback([flags, &session] { session.status = RunEvaluate(*flags, session); });
 }
 

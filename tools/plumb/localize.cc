@@ -35,6 +35,7 @@ struct Results {
   runtime::Trajectory online;
   std::vector<VerdictRow> verdicts;
   std::vector<TimingRow> timing;
+  size_t unreadable_scans = 0;
 };
 
 Expected<Results> AddScans(const runtime::Recording& recording, const LocalizeFlags& flags, runtime::Localizer& localizer, Console& console) {
@@ -47,15 +48,16 @@ Expected<Results> AddScans(const runtime::Recording& recording, const LocalizeFl
     if (!scan) {  // one bad file is no reason to lose hours of good ones
       console.Error(scan.error().message + "; skipped");
       last_error = scan.error();
+      ++results.unreadable_scans;
       continue;
-    }
-    if (scan->time_s.empty() && !said_deskew_off) {
-      console.Info("scans without per-point time: deskew off");
-      said_deskew_off = true;
     }
     std::optional<runtime::Odometry::GivenMotion> given;
     if (!flags.no_odometry) given = runtime::GivenMotionDuring(*scan, recording.odometry());
     const runtime::ScanVerdict verdict = localizer.AddScan(*scan, given);
+    if (!verdict.timed && !said_deskew_off && !scan->points.empty()) {
+      console.Info(fmt::format("scans without {}per-point time: deskew off", scan->time_s.empty() ? "" : "usable "));
+      said_deskew_off = true;
+    }
     results.verdicts.push_back({verdict.stamp_s, runtime::VerdictName(verdict.verdict), verdict.hypotheses});
     if (verdict.T_plan_lidar) results.online.push_back({verdict.stamp_s, *verdict.T_plan_lidar});
     for (const runtime::StageTime& stage : verdict.timing) results.timing.push_back({verdict.stamp_s, stage.stage, stage.ms});
@@ -113,6 +115,7 @@ RunInfo Describe(const LocalizeFlags& flags, const CLI::App& sub, const AGraph& 
   info.recording_path = fs::absolute(flags.recording).lexically_normal().string();
   info.options = OptionValues(sub);
   info.scans = results.verdicts.size();
+  info.unreadable_scans = results.unreadable_scans;
   for (const VerdictRow& v : results.verdicts) {
     if (v.verdict != "localized") continue;
     if (!info.time_to_localize_s) info.time_to_localize_s = v.stamp_s - results.verdicts.front().stamp_s;
@@ -125,7 +128,9 @@ RunInfo Describe(const LocalizeFlags& flags, const CLI::App& sub, const AGraph& 
   double total_ms = 0;
   for (const TimingRow& t : results.timing) total_ms += t.ms;
   if (info.scans > 0) info.ms_per_scan = total_ms / static_cast<double>(info.scans);
-  if (info.localized_scans == 0) info.last_reason = localizer.last_match().reason;
+  if (info.localized_scans == 0) {
+    info.last_reason = localizer.map().keyframes.empty() ? "too little was seen to begin a map" : localizer.last_match().reason;
+  }
   return info;
 }
 
@@ -146,6 +151,18 @@ Expected<void> WriteRun(const LocalizeFlags& flags, const AGraph& plan, const Re
   return {};
 }
 
+// Before hours of work: can the results be written?
+Expected<void> PrepareOutput(const std::string& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) return tl::unexpected(Error{ErrorCode::kFileUnwritable, fmt::format("cannot make `{}`: {}", folder, error.message())});
+  const std::string probe = (fs::path(folder) / "run.json").string();
+  fs::remove(probe, error);  // of an earlier run, which this one takes the place of
+  if (auto written = WriteFileAtomically(probe, std::string_view("{}")); !written) return written;
+  fs::remove(probe, error);
+  return {};
+}
+
 Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
   flags.options.deviations.min_yaw_rad = flags.tolerance_deg * std::numbers::pi / 180;
   if (const std::string wrong = flags.options.Check(); !wrong.empty()) return session.Fail({ErrorCode::kBadOption, wrong});
@@ -154,8 +171,7 @@ Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
   if (!plan) return session.Fail(plan.error());
   const auto recording = runtime::Recording::Open(flags.recording);
   if (!recording) return session.Fail(recording.error());
-  std::error_code ignored;  // the first write says why
-  fs::create_directories(flags.output, ignored);
+  if (const auto ready = PrepareOutput(flags.output); !ready) return session.Fail(ready.error());
 
   runtime::Localizer localizer(*plan, flags.options);
   const auto results = AddScans(*recording, flags, localizer, session.console);
@@ -171,10 +187,10 @@ Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
   session.console.Info(fmt::format("{}: localized after {:.1f} s, {} of {} scans; {} walls deviate; {:.0f} ms per scan", flags.output,
                                    *info.time_to_localize_s, info.localized_scans, info.scans, info.deviated_walls, info.ms_per_scan));
   if (!localizer.T_plan_map()) {
-    session.console.Error(fmt::format("{}: lost at the end of the recording: no deviations, no smoothed trajectory", flags.output));
+    session.console.Error(fmt::format("{}: lost at the end of the recording: what was seen since then has no place in the plan", flags.output));
     return Status::kFindings;
   }
-  return Status::kFine;
+  return results->unreadable_scans == 0 ? Status::kFine : Status::kFindings;
 }
 
 }  // namespace

@@ -22,6 +22,7 @@ std::string RunInfoToJson(const RunInfo& info) {
   Json summary;
   summary["scans"] = info.scans;
   summary["localized_scans"] = info.localized_scans;
+  summary["unreadable_scans"] = info.unreadable_scans;
   summary["time_to_localize_s"] = info.time_to_localize_s ? Json(*info.time_to_localize_s) : Json(nullptr);
   summary["duration_s"] = info.duration_s;
   summary["keyframes"] = info.keyframes;
@@ -48,6 +49,7 @@ Expected<RunInfo> ParseRunInfo(const std::string& json, const std::string& sourc
     const Json& summary = root.at("summary");
     summary.at("scans").get_to(info.scans);
     summary.at("localized_scans").get_to(info.localized_scans);
+    info.unreadable_scans = summary.value("unreadable_scans", size_t{0});
     if (!summary.at("time_to_localize_s").is_null()) info.time_to_localize_s = summary.at("time_to_localize_s").get<double>();
     summary.at("duration_s").get_to(info.duration_s);
     summary.at("keyframes").get_to(info.keyframes);

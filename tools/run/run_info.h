@@ -20,7 +20,7 @@ struct RunInfo {
   std::vector<Option> options;  // flags of `plumb localize`, as given or by default
 
   // Summary.
-  size_t scans = 0, localized_scans = 0;
+  size_t scans = 0, localized_scans = 0, unreadable_scans = 0;
   std::optional<double> time_to_localize_s;  // from the first scan's stamp to that of the first `localized` verdict
   double duration_s = 0;                     // from the first scan's stamp to the last one's
   size_t keyframes = 0;

@@ -35,7 +35,7 @@ StoreyId ChooseStorey(const AGraph& plan, int wanted) {
   return chosen < rooms.size() && rooms[chosen] > 0 ? StoreyId(chosen) : StoreyId();
 }
 
-// An empty scans folder; scans of an earlier recording would be taken for some of this one.
+// An empty scans folder and no files of an earlier recording: they would be taken for some of this one, should it be broken off.
 Expected<void> PrepareFolder(const fs::path& folder) {
   std::error_code error;
   fs::create_directories(folder / "scans", error);
@@ -44,6 +44,7 @@ Expected<void> PrepareFolder(const fs::path& folder) {
   for (const fs::directory_entry& entry : fs::directory_iterator(folder / "scans", error)) {
     if (entry.path().extension() == ".pcd") old.push_back(entry.path());
   }
+  for (const char* name : {"odometry.tum", "truth.tum", "truth.json"}) old.push_back(folder / name);
   for (const fs::path& path : old) fs::remove(path, error);
   if (error) return Fail(ErrorCode::kFileUnwritable, fmt::format("cannot clear `{}`: {}", (folder / "scans").string(), error.message()));
   return {};

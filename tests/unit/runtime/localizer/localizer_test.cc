@@ -1,6 +1,5 @@
 #include "runtime/localizer/localizer.h"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -110,13 +109,45 @@ TEST(Localizer, SaysLostWhenBlindAndKeepsAPose) {
   EXPECT_EQ(v.verdict, Verdict::kLost);
   EXPECT_TRUE(v.T_plan_lidar);
   EXPECT_FALSE(run.localizer.T_plan_map());
-  // Sight comes back where it went: the robot is found again.
+  // Sight comes back where it went: the robot is found in its map again.
   run.time_s = blind_from_s;
-  std::vector<Verdict> verdicts;
-  for (int i = 0; i < 100 && (verdicts.empty() || verdicts.back() != Verdict::kLocalized); ++i) verdicts.push_back(run.Next().verdict);
-  ASSERT_EQ(verdicts.back(), Verdict::kLocalized);
-  EXPECT_THAT(verdicts, testing::Not(testing::Contains(Verdict::kSearching)));  // lost until found
+  EXPECT_EQ(run.Next().verdict, Verdict::kLocalized);
+  for (int i = 0; i < 10; ++i) run.Next();
   EXPECT_LT(ErrorOf(*run.Next().T_plan_lidar, run.TruthAt(run.time_s - kPeriod_s)).position_m, 0.06);
+}
+
+// Carried from one room into another between two scans.
+TEST(Localizer, IsLostNotWrongWhenCarriedOff) {
+  const AGraph house = test::MakeHouse();
+  Session run(house, house);
+  ASSERT_GT(run.Until(Verdict::kLocalized), 0);
+  for (int i = 0; i < 20; ++i) run.Next();
+  const double carried_at_s = run.time_s;
+  const Eigen::Vector3d before = run.TruthAt(run.time_s).translation();
+  double skipped_s = 0;
+  while ((run.TruthAt(run.time_s + skipped_s).translation() - before).norm() < 3.5 && skipped_s < 30) skipped_s += 0.5;
+  ASSERT_LT(run.time_s + skipped_s + 8, run.drive.duration_s());
+  bool was_lost = false, found_again = false;
+  int wrong = 0;
+  for (; run.time_s + skipped_s + kPeriod_s < run.drive.duration_s() && !found_again;) {
+    Scan scan = run.lidar.Sweep([&](double t_s) { return run.TruthAt(t_s + skipped_s); }, run.time_s);
+    run.time_s += kPeriod_s;
+    const ScanVerdict v = run.localizer.AddScan(scan, std::nullopt);
+    was_lost |= v.verdict == Verdict::kLost;
+    const bool right = v.T_plan_lidar && ErrorOf(*v.T_plan_lidar, run.TruthAt(v.stamp_s + skipped_s)).position_m < 0.1;
+    wrong += v.verdict == Verdict::kLocalized && !right;
+    found_again = was_lost && v.verdict == Verdict::kLocalized && right;
+  }
+  EXPECT_TRUE(was_lost);
+  EXPECT_TRUE(found_again);
+  EXPECT_LE(wrong, 3) << "scans";
+  // What was seen before is kept.
+  const Trajectory smoothed = run.localizer.SmoothedTrajectory();
+  ASSERT_FALSE(smoothed.empty());
+  EXPECT_LT(smoothed.front().stamp_s, carried_at_s);
+  for (const StampedPose& pose : smoothed) {
+    if (pose.stamp_s < carried_at_s) { EXPECT_LT(ErrorOf(pose.T, run.TruthAt(pose.stamp_s)).position_m, 0.06) << pose.stamp_s; }
+  }
 }
 
 TEST(Localizer, KeepsSearchingInAPlanOfAnotherBuilding) {

@@ -43,6 +43,23 @@ TEST_F(RecordingFolder, ReadsScansInTimeOrderWithExactStamps) {
   EXPECT_TRUE(recording->odometry().empty());
 }
 
+// As some drivers write them.
+TEST_F(RecordingFolder, TakesTheFirstPointForTheStampWhereThatIsTheSweepsEnd) {
+  Scan scan;
+  scan.points = {{1, 0, 0}, {2, 0, 0}, {3, 0, 0}};
+  scan.time_s = {-0.1f, -0.05f, 0.0f};
+  ASSERT_TRUE(WritePcd(scan, folder_ / "scans/0000000012.500000000.pcd"));
+  const Expected<Recording> recording = Recording::Open(folder_.path());
+  ASSERT_TRUE(recording);
+  const Expected<Scan> read = recording->Read(0);
+  ASSERT_TRUE(read);
+  EXPECT_NEAR(read->stamp_s, 12.4, 1e-6);
+  ASSERT_EQ(read->time_s.size(), 3u);
+  EXPECT_EQ(read->time_s[0], 0.0f);
+  EXPECT_NEAR(read->time_s[1], 0.05, 1e-6);
+  EXPECT_NEAR(read->time_s[2], 0.1, 1e-6);
+}
+
 TEST_F(RecordingFolder, ReadsOdometryButNoTruth) {
   AddScan("0000000001.000000000.pcd", 1);
   ASSERT_TRUE(WriteFileAtomically(folder_ / "odometry.tum", std::string_view("1 0 0 0 0 0 0 1\n2 1 0 0 0 0 0 1\n")));

@@ -135,6 +135,19 @@ TEST(Simulate, RemovesTheScansOfAnEarlierRecording) {
   EXPECT_EQ(runtime::Recording::Open(folder.path())->size(), summary->scans);
 }
 
+TEST(Simulate, BrokenOffLeavesNothingOfAnEarlierRecording) {
+  const AGraph house = test::MakeHouse();
+  const test::TemporaryFolder folder;
+  for (const char* name : {"odometry.tum", "truth.tum", "truth.json"}) ASSERT_TRUE(WriteFileAtomically(folder / name, std::string_view("old")));
+  bool stood = false;
+  const Expected<SimulateSummary> summary = Simulate(house, Short(1), folder.path(), [&](size_t, size_t) {
+    for (const char* name : {"odometry.tum", "truth.tum", "truth.json"}) stood |= std::filesystem::exists(folder / name);
+  });
+  ASSERT_TRUE(summary);
+  EXPECT_FALSE(stood) << "while scans are written";
+  EXPECT_TRUE(std::filesystem::exists(folder / "truth.json"));
+}
+
 TEST(Simulate, RefusesBadOptionsAndPlansWithoutRooms) {
   const test::TemporaryFolder folder;
   SimulateOptions options = Short(1);

@@ -348,7 +348,9 @@ Expected<AGraph> Convert(const fb::AGraph& in, size_t file_bytes) {
 
 Expected<AGraph> ReadAGraph(std::span<const uint8_t> bytes) {
   if (bytes.size() < 8 || !flatbuffers::BufferHasIdentifier(bytes.data(), fb::AGraphIdentifier())) {
-    return Fail(ErrorCode::kNotAnAGraph, "not an A-Graph: the file identifier `PLAG` is missing");
+    const bool is_step = std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()).starts_with("ISO-10303-21");
+    return Fail(ErrorCode::kNotAnAGraph, is_step ? "an IFC plan, not yet an A-Graph: `plumb compile` makes one of it"
+                                                 : "not an A-Graph: the file identifier `PLAG` is missing");
   }
   // Limits bound the verifier's work; the table limit grows with the file since a table takes at least 8 bytes.
   flatbuffers::Verifier verifier(bytes.data(), bytes.size(), 64, static_cast<flatbuffers::uoffset_t>(bytes.size() / 8 + 1));

@@ -9,6 +9,9 @@ namespace {
 
 constexpr int kMaxFailedScans = 3;  // in a row: from then on nobody knows where the robot went meanwhile
 
+// Walls seen while the robot turned are bent by motion that could not be taken out: by some centimetres and degrees.
+constexpr double kUntimedShare = 0.1, kUntimedFloor_m = 0.05, kUntimedFloor_rad = 0.05;
+
 // Milliseconds since construction or the last call of Lap.
 class Stopwatch {
  public:
@@ -81,6 +84,7 @@ struct Localizer::Impl {
   bool ever_fixed = false;
   bool is_placed = false;  // T_plan_map is where the present map lies, even while nobody knows where in it the robot is
   int failed_scans = 0;  // in a row
+  size_t num_scans = 0, num_untimed = 0;  // with points
   std::vector<WallDeviation> known;  // per plan wall, as estimated so far
   std::vector<Eigen::Isometry3d> rivals;  // of the fix, T_plan_map each
   int votes_against = 0;
@@ -122,6 +126,10 @@ struct Localizer::Impl {
     if (matches.empty()) return;
     JointOptions joint_options = options.joint;
     joint_options.covariances = covariances;
+    if (num_untimed > kUntimedShare * static_cast<double>(num_scans)) {
+      joint_options.observation_floor_m = std::max(joint_options.observation_floor_m, kUntimedFloor_m);
+      joint_options.observation_floor_rad = std::max(joint_options.observation_floor_rad, kUntimedFloor_rad);
+    }
     JointResult result = OptimizeJointly(mapper.graph(), plan, matches, T_plan_map, joint_options);
     if (result.T_map_kf.empty()) return;  // unusable; a solution short of its last digit is not
     joint = std::move(result);
@@ -237,6 +245,10 @@ ScanVerdict Localizer::AddScan(const Scan& scan, const std::optional<Odometry::G
   const OdometryResult registered = impl_->odometry.Register(scan, given);
   out.timing.push_back({"odometry", watch.Lap()});
   out.timed = registered.timed;
+  if (!scan.points.empty()) {
+    ++impl_->num_scans;
+    impl_->num_untimed += !registered.timed;
+  }
   if (registered.restarted) impl_->StartOver();
   impl_->CountFailures(registered.ok || registered.restarted);
   const bool grew = (registered.ok || registered.restarted) && impl_->mapper.AddScan(registered.deskewed, registered.T_odom_lidar);

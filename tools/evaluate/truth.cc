@@ -42,6 +42,8 @@ Expected<Truth> ParseTruth(const std::string& json, const std::string& source) {
     if (root.at("version") != 1) return Fail(ErrorCode::kNotARecording, fmt::format("`{}` has another version than 1", source));
     Truth truth;
     truth.has_walls = true;
+    if (root.value("incomplete", false)) return Fail(ErrorCode::kNotARecording, fmt::format("`{}`: the simulation was broken off", source));
+    if (const auto plan = root.find("plan"); plan != root.end()) truth.plan_source_sha256 = plan->value("sha256", "");
     for (const Json& wall : root.at("walls")) truth.walls.push_back(ParseWall(wall));
     const Json points = root.value("surface_points", Json::object());
     for (const auto& [key, count] : points.items()) {

@@ -28,6 +28,7 @@ struct Truth {
   runtime::Trajectory trajectory;             // sensor in the plan frame
   std::vector<WallTruth> walls;               // in the file's order; walls that are not listed are as planned
   std::map<SurfaceId, double> surface_points; // returns that hit each surface; empty: not recorded
+  std::string plan_source_sha256;             // of the plan that the recording was simulated in; empty: not recorded
   bool has_walls = false;                     // false: the recording has no truth.json
 };
 

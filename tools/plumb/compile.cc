@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <algorithm>
 #include <iterator>
 #include <memory>
@@ -49,6 +50,9 @@ compiler::CompileResult CompileWithin(const CompileFlags& flags) {
 
 Status RunCompile(const CompileFlags& flags, Session& session) {
   if (const std::string wrong = flags.options.Check(); !wrong.empty()) return session.Fail({ErrorCode::kBadOption, wrong});
+  if (std::error_code error; std::filesystem::equivalent(flags.plan, flags.output, error)) {
+    return session.Fail({ErrorCode::kBadOption, fmt::format("--output {}; must not be the plan itself", flags.output)});
+  }
   const compiler::CompileResult result = CompileWithin(flags);
   const auto& diagnostics = result.diagnostics.all();
   Tell(flags, diagnostics, session.console);

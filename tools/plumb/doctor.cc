@@ -75,6 +75,7 @@ void ExamineScans(const runtime::Recording& recording, Console& console, Examina
   if (unreadable > 0) out.findings.push_back(fmt::format("{} scans cannot be read, the first: {}", unreadable, first_error));
   if (empty > 0) out.findings.push_back(fmt::format("{} scans have fewer than 100 points", empty));
   if (without_time > 0) out.findings.push_back(fmt::format("{} scans have no time per point: motion during the sweep cannot be taken out", without_time));
+  if (farthest_m > 1000) out.findings.push_back(fmt::format("a point is {:.0f} m away: are these millimetres? coordinates are in metres", farthest_m));
   if (most_s > 0.5F || least_s < -0.5F) out.findings.emplace_back("times per point span more than half a second: are they in seconds after the stamp?");
 }
 

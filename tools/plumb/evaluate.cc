@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 #include <numbers>
 #include <optional>
@@ -10,6 +11,7 @@
 
 #include "schema/files.h"
 #include "tools/plumb/command.h"
+#include "tools/run/run_info.h"
 
 namespace plumb::tools {
 namespace {
@@ -47,6 +49,14 @@ Status RunEvaluate(EvaluateFlags flags, Session& session) {
   if (!run) return session.Fail(run.error());
   const auto truth = ReadTruth(flags.truth);
   if (!truth) return session.Fail(truth.error());
+  const auto info = ReadRunInfo(flags.run);
+  if (!info) return session.Fail(info.error());
+  if (!truth->plan_source_sha256.empty() && !info->plan_source_sha256.empty() && truth->plan_source_sha256 != info->plan_source_sha256) {
+    return session.Fail({ErrorCode::kBadRunFolder, fmt::format("`{}` was made with another plan than `{}`: walls cannot be compared", flags.run, flags.truth)});
+  }
+  if (std::error_code error; !std::filesystem::equivalent(info->recording_path, flags.truth, error)) {
+    session.console.Info(fmt::format("note: {} was made from {}, the truth is that of {}", flags.run, info->recording_path, flags.truth));
+  }
   const Evaluation evaluation = Evaluate(*run, *truth, flags.options);
   session.console.Print(EvaluationToText(evaluation));
   if (!flags.json.empty()) {

@@ -12,6 +12,7 @@
 #include "schema/files.h"
 #include "tools/plumb/command.h"
 #include "tools/plumb/config.h"
+#include "tools/plumb/interrupt.h"
 #include "tools/run/ply.h"
 #include "tools/run/run_folder.h"
 #include "tools/run/run_info.h"
@@ -35,15 +36,20 @@ struct Results {
   runtime::Trajectory online;
   std::vector<VerdictRow> verdicts;
   std::vector<TimingRow> timing;
-  size_t unreadable_scans = 0;
+  size_t unreadable_scans = 0, untimed_scans = 0;
+  bool interrupted = false;
 };
 
 Expected<Results> AddScans(const runtime::Recording& recording, const LocalizeFlags& flags, runtime::Localizer& localizer, Console& console) {
   Results results;
   Error last_error{ErrorCode::kBadScan, "no scan"};
-  bool said_deskew_off = false;
+  const InterruptGuard interrupt;
   for (size_t i = 0; i < recording.size(); ++i) {
     if (flags.max_duration_s > 0 && recording.stamp_s(i) - recording.stamp_s(0) > flags.max_duration_s) break;
+    if (interrupt.requested()) {
+      results.interrupted = true;
+      break;
+    }
     const auto scan = recording.Read(i);
     if (!scan) {  // one bad file is no reason to lose hours of good ones
       console.Error(scan.error().message + "; skipped");
@@ -54,9 +60,8 @@ Expected<Results> AddScans(const runtime::Recording& recording, const LocalizeFl
     std::optional<runtime::Odometry::GivenMotion> given;
     if (!flags.no_odometry) given = runtime::GivenMotionDuring(*scan, recording.odometry());
     const runtime::ScanVerdict verdict = localizer.AddScan(*scan, given);
-    if (!verdict.timed && !said_deskew_off && !scan->points.empty()) {
+    if (!verdict.timed && !scan->points.empty() && results.untimed_scans++ == 0) {
       console.Info(fmt::format("scans without {}per-point time: deskew off", scan->time_s.empty() ? "" : "usable "));
-      said_deskew_off = true;
     }
     results.verdicts.push_back({verdict.stamp_s, runtime::VerdictName(verdict.verdict), verdict.hypotheses});
     if (verdict.T_plan_lidar) results.online.push_back({verdict.stamp_s, *verdict.T_plan_lidar});
@@ -116,6 +121,8 @@ RunInfo Describe(const LocalizeFlags& flags, const CLI::App& sub, const AGraph& 
   info.options = OptionValues(sub);
   info.scans = results.verdicts.size();
   info.unreadable_scans = results.unreadable_scans;
+  info.untimed_scans = results.untimed_scans;
+  info.interrupted = results.interrupted;
   for (const VerdictRow& v : results.verdicts) {
     if (v.verdict != "localized") continue;
     if (!info.time_to_localize_s) info.time_to_localize_s = v.stamp_s - results.verdicts.front().stamp_s;
@@ -180,8 +187,10 @@ Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
   const runtime::DeviationReport report = localizer.Deviations();
   const RunInfo info = Describe(flags, sub, *plan, *results, localizer, report);
   if (const auto written = WriteRun(flags, *plan, *results, localizer, report, info); !written) return session.Fail(written.error());
+  if (info.interrupted) session.console.Error(fmt::format("interrupted after {} of {} scans; {} has what was known by then", info.scans, recording->size(), flags.output));
   if (!info.time_to_localize_s) {
     session.console.Info(fmt::format("{}: not localized in {} scans: {}", flags.output, info.scans, info.last_reason));
+    session.console.Info("drive through more rooms; if that does not help: another plan or storey? `plumb validate` looks at the plan, `plumb doctor` at the recording");
     return Status::kFindings;
   }
   session.console.Info(fmt::format("{}: localized after {:.1f} s, {} of {} scans; {} walls deviate; {:.0f} ms per scan", flags.output,
@@ -190,7 +199,7 @@ Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
     session.console.Error(fmt::format("{}: lost at the end of the recording: what was seen since then has no place in the plan", flags.output));
     return Status::kFindings;
   }
-  return results->unreadable_scans == 0 ? Status::kFine : Status::kFindings;
+  return results->unreadable_scans == 0 && !results->interrupted ? Status::kFine : Status::kFindings;
 }
 
 }  // namespace

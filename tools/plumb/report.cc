@@ -24,6 +24,9 @@ Status RunReport(const ReportFlags& flags, Session& session) {
   const std::string plan_path = flags.plan.empty() ? info->plan_path : flags.plan;
   const auto plan = ReadAGraphFile(plan_path);
   if (!plan) return session.Fail(plan.error());
+  if (!info->plan_source_sha256.empty() && plan->source_sha256 != info->plan_source_sha256) {
+    return session.Fail({ErrorCode::kBadRunFolder, fmt::format("`{}` was made with another plan than `{}`", flags.run, plan_path)});
+  }
   const auto html = RunToHtml(*plan, *run, *info);
   if (!html) return session.Fail(html.error());
   if (const auto written = WriteFileAtomically(flags.output, std::string_view(*html)); !written) return session.Fail(written.error());

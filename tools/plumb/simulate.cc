@@ -3,11 +3,13 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
 #include <memory>
 #include <numbers>
 #include <optional>
 #include <utility>
 
+#include "runtime/sources/recording.h"
 #include "schema/agraph_reader.h"
 #include "tools/plumb/command.h"
 #include "tools/simulate/sensor.h"
@@ -18,6 +20,7 @@ namespace {
 struct SimulateFlags {
   std::string plan, output;
   std::string translation = "0.05:0.35", rotation_deg = "0:5";
+  bool force = false;
   SimulateOptions options;
 };
 
@@ -44,9 +47,17 @@ Expected<SimulateOptions> OptionsOf(const SimulateFlags& flags) {
   return options;
 }
 
+bool HoldsARecordingOfOthers(const std::string& folder) {
+  std::error_code error;
+  return !std::filesystem::exists(std::filesystem::path(folder) / "truth.json", error) && runtime::Recording::Open(folder).has_value();
+}
+
 Status RunSimulate(const SimulateFlags& flags, Session& session) {
   const auto options = OptionsOf(flags);
   if (!options) return session.Fail(options.error());
+  if (!flags.force && HoldsARecordingOfOthers(flags.output)) {
+    return session.Fail({ErrorCode::kBadOption, fmt::format("`{}` holds scans that no simulation wrote (it has no truth.json); --force replaces them", flags.output)});
+  }
   const auto plan = ReadAGraphFile(flags.plan);
   if (!plan) return session.Fail(plan.error());
   const auto done = Simulate(*plan, *options, flags.output, [&](size_t i, size_t n) { session.console.Progress("simulating", i, n); });
@@ -81,6 +92,7 @@ void AddSimulate(CLI::App& app, Session& session) {
   sub->add_option("--max-duration", o.max_duration_s, "stop after this long wherever the robot is, s");
   sub->add_option("--glass-transmission", o.glass_transmission, "chance that a ray passes a pane");
   sub->add_option("--clutter", o.clutter, "boxes that stand about and are not in the plan");
+  sub->add_flag("--force", flags->force, "replace scans in REC that no simulation wrote");
   sub->callback([flags, &session] { session.status = RunSimulate(*flags, session); });
 }
 

@@ -46,6 +46,8 @@ Expected<void> PrepareFolder(const fs::path& folder) {
   }
   for (const char* name : {"odometry.tum", "truth.tum", "truth.json"}) old.push_back(folder / name);
   for (const fs::path& path : old) fs::remove(path, error);
+  // Tells a simulation that was broken off from scans of others.
+  if (auto written = WriteFileAtomically((folder / "truth.json").string(), std::string_view("{\"version\": 1, \"incomplete\": true}\n")); !written) return written;
   if (error) return Fail(ErrorCode::kFileUnwritable, fmt::format("cannot clear `{}`: {}", (folder / "scans").string(), error.message()));
   return {};
 }

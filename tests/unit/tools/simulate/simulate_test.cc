@@ -141,11 +141,12 @@ TEST(Simulate, BrokenOffLeavesNothingOfAnEarlierRecording) {
   for (const char* name : {"odometry.tum", "truth.tum", "truth.json"}) ASSERT_TRUE(WriteFileAtomically(folder / name, std::string_view("old")));
   bool stood = false;
   const Expected<SimulateSummary> summary = Simulate(house, Short(1), folder.path(), [&](size_t, size_t) {
-    for (const char* name : {"odometry.tum", "truth.tum", "truth.json"}) stood |= std::filesystem::exists(folder / name);
+    for (const char* name : {"odometry.tum", "truth.tum"}) stood |= std::filesystem::exists(folder / name);
+    stood |= ReadFileText(folder / "truth.json").value_or("") == "old";
   });
   ASSERT_TRUE(summary);
   EXPECT_FALSE(stood) << "while scans are written";
-  EXPECT_TRUE(std::filesystem::exists(folder / "truth.json"));
+  EXPECT_EQ(ReadFileText(folder / "truth.json").value_or("").find("incomplete"), std::string::npos);
 }
 
 TEST(Simulate, RefusesBadOptionsAndPlansWithoutRooms) {

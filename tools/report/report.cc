@@ -52,6 +52,12 @@ std::string Notes(const RunInfo& info, const Deviations& deviations) {
     out += fmt::format("<p class=\"note bad\">The robot was not localized in this plan{}{}. No deviations can be stated.</p>\n",
                        info.last_reason.empty() ? "" : ": ", EscapeXml(info.last_reason));
   }
+  if (info.interrupted) out += "<p class=\"note bad\">The run was interrupted: only a part of the recording was used.</p>\n";
+  if (info.untimed_scans > 0) {
+    out += fmt::format("<p class=\"note bad\">{} of {} scans had no usable time per point: walls seen while the robot turned are bent, by centimetres and "
+                       "degrees.</p>\n", info.untimed_scans, info.scans);
+  }
+  if (info.unreadable_scans > 0) out += fmt::format("<p class=\"note bad\">{} scans could not be read.</p>\n", info.unreadable_scans);
   if (!deviations.gauge.empty()) out += fmt::format("<p class=\"note\">{}</p>\n", EscapeXml(deviations.gauge));
   return out;
 }

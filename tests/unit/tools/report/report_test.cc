@@ -111,6 +111,19 @@ TEST(Report, SaysWhenNothingWasFound) {
   EXPECT_THAT(*html, HasSubstr("was not localized in this plan: too few walls seen"));
 }
 
+TEST(Report, WarnsWhereTheRunIsWorthLess) {
+  RunInfo info = MakeInfo();
+  const AGraph house = test::MakeHouse();
+  EXPECT_EQ(RunToHtml(house, MakeRun(house), info).value().find("note bad"), std::string::npos);
+  info.untimed_scans = 7;
+  info.unreadable_scans = 3;
+  info.interrupted = true;
+  const std::string html = RunToHtml(house, MakeRun(house), info).value();
+  EXPECT_NE(html.find("7 of "), std::string::npos);
+  EXPECT_NE(html.find("3 scans could not be read"), std::string::npos);
+  EXPECT_NE(html.find("interrupted"), std::string::npos);
+}
+
 TEST(Report, RefusesARunOfAnotherPlan) {
   const AGraph house = test::MakeHouse();
   tools::Run run = MakeRun(house);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 
 #include "compiler/frontends/drawing/plane.h"
 
@@ -16,6 +17,7 @@ namespace {
 constexpr double kOff_m = 1e-4;
 constexpr double kAgainst = 0.96;   // cosine between sides that face each other
 constexpr double kMinEnd_m = 0.03;  // narrower ends are no walls
+constexpr double kLeafSlack = 0.15;  // in gaps' widths, between a gap and the leaf of its door
 constexpr double kSillShare = 0.85;  // a window's line runs from jamb to jamb
 
 struct Stroke {
@@ -34,6 +36,8 @@ struct Gap {
 struct Evidence {
   uint32_t door = kNone, swing = kNone, window = kNone, mixed = kNone;  // a path
   double door_span = 0, window_span = 0, mixed_span = 0;  // share of the width that a line along it takes
+  uint32_t leaf = kNone;  // a straight line as long as the gap is wide, or half of it: a leaf that stands open
+  bool sliding = false;   // two panels, each along one half of the gap
 };
 
 class OpeningFinder {
@@ -98,9 +102,15 @@ class OpeningFinder {
     }
     // The shortest first: what lies across a closed gap is no gap.
     std::stable_sort(gaps.begin(), gaps.end(), [](const Gap& a, const Gap& b) { return a.opening.width_m() < b.opening.width_m(); });
+    const auto take = [&](Gap& gap) {
+      jambs_.insert({gap.side_a, gap.side_b});
+      out_.push_back(gap.opening);
+    };
     for (Gap& gap : gaps) {
-      if (IsKnown(gap.opening) || !Judge(gap)) continue;
-      out_.push_back(std::move(gap.opening));
+      if (!IsKnown(gap.opening) && Judge(gap)) take(gap);
+    }
+    for (Gap& gap : gaps) {
+      if (!IsKnown(gap.opening) && IsPassage(gap)) take(gap);
     }
   }
 
@@ -125,6 +135,7 @@ class OpeningFinder {
     near_.clear();
     tree_.ForEachIn({m - Eigen::Vector2d::Constant(reach), m + Eigen::Vector2d::Constant(reach)}, [&](uint32_t i) { near_.push_back(i); });
     std::sort(near_.begin(), near_.end());
+    bool left = false, right = false;
     for (const uint32_t i : near_) {
       const Stroke& stroke = strokes_[i];
       const Eigen::Vector2d a(u.dot(stroke.a - m), Cross(u, stroke.a - m)), b(u.dot(stroke.b - m), Cross(u, stroke.b - m));
@@ -135,12 +146,17 @@ class OpeningFinder {
       const double span =
           along ? std::max(0.0, std::min(half, std::max(a.x(), b.x())) - std::max(-half, std::min(a.x(), b.x()))) / o.width_m() : 0;
       const bool swing = std::any_of(path.arcs.begin(), path.arcs.end(), [&](const Arc& arc) { return IsSwing(arc, options_); });
+      const double share = (b - a).norm() / o.width_m();
+      if (path.role != LineRole::kWindow && !path.curved && !along && (std::abs(share - 1) < kLeafSlack || std::abs(share - 0.5) < 0.5 * kLeafSlack))
+        out.leaf = std::min(out.leaf, stroke.path);
+      if (along && span > 0.4 && span < 0.7) (0.5 * (a.x() + b.x()) < 0 ? left : right) = true;
       if (swing && path.role != LineRole::kWindow) out.swing = std::min(out.swing, stroke.path);
       if (path.role == LineRole::kDoor) out.door = std::min(out.door, stroke.path), out.door_span = std::max(out.door_span, span);
       if (path.role == LineRole::kWindow) out.window = std::min(out.window, stroke.path), out.window_span = std::max(out.window_span, span);
       if (path.role == LineRole::kOpening || path.role == LineRole::kAny)
         out.mixed = std::min(out.mixed, stroke.path), out.mixed_span = std::max(out.mixed_span, span);
     }
+    out.sliding = left && right;
     return out;
   }
 
@@ -160,7 +176,7 @@ class OpeningFinder {
     return t0 <= t1;
   }
 
-  // Whether the gap is a door, a window or a passage, and which.
+  // Whether symbols make the gap a door or a window, and which.
   bool Judge(Gap& gap) {
     DrawnOpening& o = gap.opening;
     const double width = o.width_m();
@@ -173,12 +189,22 @@ class OpeningFinder {
       return true;
     };
     if (e.swing != kNone && width <= options_.max_swing_gap_m) return take(DrawnUse::kDoor, e.swing);
-    if (e.mixed_span >= kSillShare && width <= options_.max_window_gap_m) return take(DrawnUse::kWindow, e.mixed);
     if (e.window_span >= options_.min_spanning_share && e.window_span >= e.door_span) return take(DrawnUse::kWindow, e.window);
+    if (e.mixed != kNone && e.sliding && width <= options_.max_swing_gap_m) return take(DrawnUse::kDoor, e.mixed);
+    if (e.mixed_span >= kSillShare && width <= options_.max_window_gap_m) return take(DrawnUse::kWindow, e.mixed);
     if (std::max(e.door_span, e.mixed_span) >= options_.min_spanning_share && width <= options_.max_door_gap_m)
       return take(DrawnUse::kDoor, e.door != kNone ? e.door : e.mixed);
-    if ((e.door != kNone || e.mixed != kNone) && width <= options_.max_swing_gap_m)
-      return take(DrawnUse::kDoor, e.door != kNone ? e.door : e.mixed);
+    if (e.leaf != kNone && width <= options_.max_swing_gap_m) return take(DrawnUse::kDoor, e.leaf);
+    return false;
+  }
+
+  // A gap alone is a passage, if it is as wide as one.
+  bool IsPassage(Gap& gap) const {
+    DrawnOpening& o = gap.opening;
+    const double width = o.width_m();
+    const Side& end = outline_.sides()[gap.side_a];
+    // Between two doors a wall shows an end to the side as well, across a corridor.
+    if (jambs_.contains(end.prev) || jambs_.contains(end.next) || jambs_.contains(gap.side_a)) return false;
     if (width > (gap.between_ends ? options_.max_bare_gap_m : options_.max_bare_end_gap_m)) return false;
     const uint32_t source = outline_.sides()[gap.side_a].source;
     if (source < drawing_.paths.size()) o.location = drawing_.paths[source].location;
@@ -306,6 +332,7 @@ class OpeningFinder {
   std::map<uint32_t, std::vector<uint32_t>> paths_of_symbol_;
   std::vector<bool> used_;
   std::vector<uint32_t> used_symbols_, near_;
+  std::set<uint32_t> jambs_;  // sides at the ends of openings
   std::vector<DrawnOpening> out_;
 };
 

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <istream>
 #include <numbers>
+#include <streambuf>
 #include <string_view>
 #include <unordered_map>
 
@@ -23,6 +25,7 @@ constexpr double kInPlane = 0.99;       // of the extrusion's direction along z
 constexpr double kLetter = 0.7;         // its width, in the text's height
 constexpr double kLine = 1.6;           // from line to line, in the text's height
 constexpr double kMaxCoordinate = 1e12;
+constexpr size_t kMaxValue = 1000;
 
 // What is asked of each entity before dxflib has it.
 struct Header {
@@ -391,6 +394,12 @@ bool IsNeeded(int code, const std::string& type) {
   return code < 300 && code != 5 && code != 6 && code != 48 && code != 100 && code != 102;
 }
 
+// Lets a stream read a text in place.
+class TextBuffer : public std::streambuf {
+ public:
+  void Set(std::string& text) { setg(text.data(), text.data(), text.data() + text.size()); }
+};
+
 class Feeder {
  public:
   Feeder(const std::string& bytes, const DxfReadOptions& options, DiagnosticSink& sink)
@@ -426,8 +435,12 @@ class Feeder {
 
  private:
   void Feed(int code, const std::string& value) {
-    // At the start of an entity dxflib makes the one before, for which the builder still has the header.
-    dxf_.processDXFGroup(&builder_, code, value);
+    // At the start of an entity dxflib makes the one before, for which the builder still has the header. It reads a group from a stream
+    // only, by lines that it cuts at 1024 bytes.
+    text_ = fmt::format("{}\n{}\n", code, std::string_view(value).substr(0, kMaxValue));
+    buffer_.Set(text_);
+    stream_.clear();
+    dxf_.readDxfGroups(stream_, &builder_);
   }
 
   // Hands what was collected to dxflib, if it says something of the plan. False: too much.
@@ -473,6 +486,9 @@ class Feeder {
   DxfDocument out_;
   Builder builder_;
   DL_Dxf dxf_;
+  std::string text_;
+  TextBuffer buffer_;
+  std::istream stream_{&buffer_};
   const DxfReadOptions& options_;
   DiagnosticSink& sink_;
   Groups entity_;

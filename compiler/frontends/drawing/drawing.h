@@ -30,6 +30,7 @@ struct DrawnText {
   std::string text;     // one line
   Eigen::Vector2d at = Eigen::Vector2d::Zero();  // its middle, as far as the source tells
   double height_m = 0;
+  bool underlined = false;
   bool names_room = false;  // stated by the source (a layer for names of rooms)
   SourceLocation location;
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <set>
@@ -17,8 +18,10 @@ namespace {
 constexpr double kOff_m = 1e-4;
 constexpr double kAgainst = 0.96;   // cosine between sides that face each other
 constexpr double kMinEnd_m = 0.03;  // narrower ends are no walls
-constexpr double kLeafSlack = 0.15;  // in gaps' widths, between a gap and the leaf of its door
+constexpr double kBesides_m = 0.01;  // between panels that slide past each other
 constexpr double kSillShare = 0.85;  // a window's line runs from jamb to jamb
+
+using Interval = std::pair<double, double>;
 
 struct Stroke {
   Eigen::Vector2d a, b;
@@ -35,9 +38,10 @@ struct Gap {
 // What symbols say of a place.
 struct Evidence {
   uint32_t door = kNone, swing = kNone, window = kNone, mixed = kNone;  // a path
-  double door_span = 0, window_span = 0, mixed_span = 0;  // share of the width that a line along it takes
+  double door_span = 0, window_span = 0, mixed_span = 0;  // share of the width that lines along it take
+  double mixed_line = 0;  // ... that one line takes
   uint32_t leaf = kNone;  // a straight line as long as the gap is wide, or half of it: a leaf that stands open
-  bool sliding = false;   // two panels, each along one half of the gap
+  bool sliding = false;   // panels beside each other, each about half as wide as the gap
 };
 
 class OpeningFinder {
@@ -135,7 +139,8 @@ class OpeningFinder {
     near_.clear();
     tree_.ForEachIn({m - Eigen::Vector2d::Constant(reach), m + Eigen::Vector2d::Constant(reach)}, [&](uint32_t i) { near_.push_back(i); });
     std::sort(near_.begin(), near_.end());
-    bool left = false, right = false;
+    std::vector<Interval> door, window, mixed;
+    std::vector<double> panels;  // where they stand across the gap
     for (const uint32_t i : near_) {
       const Stroke& stroke = strokes_[i];
       const Eigen::Vector2d a(u.dot(stroke.a - m), Cross(u, stroke.a - m)), b(u.dot(stroke.b - m), Cross(u, stroke.b - m));
@@ -143,21 +148,38 @@ class OpeningFinder {
       const DrawnPath& path = drawing_.paths[stroke.path];
       const double half = 0.5 * o.width_m();
       const bool along = std::abs(a.y() - b.y()) < 0.1 * std::abs(a.x() - b.x());
-      const double span =
-          along ? std::max(0.0, std::min(half, std::max(a.x(), b.x())) - std::max(-half, std::min(a.x(), b.x()))) / o.width_m() : 0;
-      const bool swing = std::any_of(path.arcs.begin(), path.arcs.end(), [&](const Arc& arc) { return IsSwing(arc, options_); });
+      Interval part{std::max(-half, std::min(a.x(), b.x())), std::min(half, std::max(a.x(), b.x()))};
+      if (!along || part.second < part.first) part = {0, 0};
+      const double span = (part.second - part.first) / o.width_m();
+      const bool swing = std::any_of(path.arcs.begin(), path.arcs.end(), [&](const Arc& arc) { return IsSwing(arc, options_) && IsLeafOf(arc.radius_m / o.width_m()); });
       const double share = (b - a).norm() / o.width_m();
-      if (path.role != LineRole::kWindow && !path.curved && !along && (std::abs(share - 1) < kLeafSlack || std::abs(share - 0.5) < 0.5 * kLeafSlack))
+      if (path.role != LineRole::kWindow && !path.curved && !along && IsLeafOf(share))
         out.leaf = std::min(out.leaf, stroke.path);
-      if (along && span > 0.4 && span < 0.7) (0.5 * (a.x() + b.x()) < 0 ? left : right) = true;
+      if (span > 0.4 && span < 0.7) panels.push_back(0.5 * (a.y() + b.y()));
       if (swing && path.role != LineRole::kWindow) out.swing = std::min(out.swing, stroke.path);
-      if (path.role == LineRole::kDoor) out.door = std::min(out.door, stroke.path), out.door_span = std::max(out.door_span, span);
-      if (path.role == LineRole::kWindow) out.window = std::min(out.window, stroke.path), out.window_span = std::max(out.window_span, span);
+      if (path.role == LineRole::kDoor) out.door = std::min(out.door, stroke.path), door.push_back(part);
+      if (path.role == LineRole::kWindow) out.window = std::min(out.window, stroke.path), window.push_back(part);
       if (path.role == LineRole::kOpening || path.role == LineRole::kAny)
-        out.mixed = std::min(out.mixed, stroke.path), out.mixed_span = std::max(out.mixed_span, span);
+        out.mixed = std::min(out.mixed, stroke.path), mixed.push_back(part), out.mixed_line = std::max(out.mixed_line, span);
     }
-    out.sliding = left && right;
+    out.door_span = LengthOfUnion(std::move(door)) / o.width_m();
+    out.window_span = LengthOfUnion(std::move(window)) / o.width_m();
+    out.mixed_span = LengthOfUnion(std::move(mixed)) / o.width_m();
+    const auto [low, high] = std::minmax_element(panels.begin(), panels.end());
+    out.sliding = !panels.empty() && *high - *low > kBesides_m;
     return out;
+  }
+
+  // The leaf of a door is about as long as the door is wide, or half as long where there are two.
+  static bool IsLeafOf(double share) { return (share > 0.75 && share < 1.2) || (share > 0.42 && share < 0.58); }
+
+  static double LengthOfUnion(std::vector<Interval> parts) {
+    std::sort(parts.begin(), parts.end());
+    double sum = 0, end = -std::numeric_limits<double>::infinity();
+    for (const auto& [from, to] : parts) {
+      if (to > end) sum += to - std::max(from, end), end = to;
+    }
+    return sum;
   }
 
   static bool MeetsBox(Eigen::Vector2d a, Eigen::Vector2d b, double half_u, double half_v) {
@@ -189,11 +211,12 @@ class OpeningFinder {
       return true;
     };
     if (e.swing != kNone && width <= options_.max_swing_gap_m) return take(DrawnUse::kDoor, e.swing);
-    if (e.window_span >= options_.min_spanning_share && e.window_span >= e.door_span) return take(DrawnUse::kWindow, e.window);
-    if (e.mixed != kNone && e.sliding && width <= options_.max_swing_gap_m) return take(DrawnUse::kDoor, e.mixed);
-    if (e.mixed_span >= kSillShare && width <= options_.max_window_gap_m) return take(DrawnUse::kWindow, e.mixed);
-    if (std::max(e.door_span, e.mixed_span) >= options_.min_spanning_share && width <= options_.max_door_gap_m)
-      return take(DrawnUse::kDoor, e.door != kNone ? e.door : e.mixed);
+    const double enough = options_.min_spanning_share;
+    if (e.door_span >= enough && e.door_span >= e.window_span && width <= options_.max_door_gap_m) return take(DrawnUse::kDoor, e.door);
+    if (e.window_span >= enough) return take(DrawnUse::kWindow, e.window);
+    if (e.mixed_span >= enough && e.sliding && width <= options_.max_door_gap_m) return take(DrawnUse::kDoor, e.mixed);
+    if (e.mixed_line >= kSillShare) return take(DrawnUse::kWindow, e.mixed);
+    if (e.mixed_span >= enough && width <= options_.max_door_gap_m) return take(DrawnUse::kDoor, e.mixed);
     if (e.leaf != kNone && width <= options_.max_swing_gap_m) return take(DrawnUse::kDoor, e.leaf);
     return false;
   }

@@ -9,6 +9,7 @@ namespace {
 
 constexpr size_t kMaxName = 60;       // bytes; longer texts are notes
 constexpr size_t kMaxLines = 3;
+constexpr int kMaxWords = 3;          // texts with more are notes, where there are others
 constexpr double kSameHeight = 0.75;  // texts this much lower than the tallest are remarks to it
 
 bool IsLetter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || static_cast<unsigned char>(c) >= 0x80; }
@@ -25,6 +26,11 @@ bool IsMeasure(std::string_view text) {
   return digits > 0 && longest_word <= 3 && (marks > 0 || text.find(' ') != std::string_view::npos);
 }
 
+template <class Good>
+void KeepIfAny(std::vector<const DrawnText*>& texts, const Good& good) {
+  if (std::any_of(texts.begin(), texts.end(), good)) std::erase_if(texts, [&](const DrawnText* t) { return !good(t); });
+}
+
 }  // namespace
 
 std::string RoomName(std::vector<const DrawnText*> texts) {
@@ -32,8 +38,9 @@ std::string RoomName(std::vector<const DrawnText*> texts) {
   // Several numbers are sizes of doors and windows; one is the room's.
   const auto is_number = [](const DrawnText* t) { return std::none_of(t->text.begin(), t->text.end(), IsLetter); };
   if (std::count_if(texts.begin(), texts.end(), is_number) > 1) std::erase_if(texts, is_number);
-  if (std::any_of(texts.begin(), texts.end(), [](const DrawnText* t) { return t->names_room; }))
-    std::erase_if(texts, [](const DrawnText* t) { return !t->names_room; });
+  KeepIfAny(texts, [](const DrawnText* t) { return t->names_room; });
+  KeepIfAny(texts, [](const DrawnText* t) { return t->underlined; });
+  KeepIfAny(texts, [](const DrawnText* t) { return std::count(t->text.begin(), t->text.end(), ' ') < kMaxWords; });
   double tallest = 0;
   for (const DrawnText* t : texts) tallest = std::max(tallest, t->height_m);
   std::erase_if(texts, [&](const DrawnText* t) { return t->height_m < kSameHeight * tallest; });

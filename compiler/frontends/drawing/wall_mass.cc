@@ -200,25 +200,28 @@ class MassFinder {
     }
   }
 
-  // Closed outlines with free space around them; the outline of a room has walls around it.
+  // Outlines with free space around them; the outline of a room has walls around it.
   void MarkPiers() {
     for (uint32_t f = 1; f < Map().num_faces(); ++f) {
-      if (out_.is_wall[f] || Map().LoopsOf(f).size() != 1) continue;
-      const uint32_t start = Map().LoopsOf(f)[0], source = Map().edges()[start / 2].source;
-      if (source >= drawing_.paths.size() || !drawing_.paths[source].closed || drawing_.paths[source].role == LineRole::kAny) continue;
-      if (LesserSide(Map().RingAt(start)) > options_.max_pier_m) continue;
-      double free_m = 0, length_m = 0;
-      bool alone = true;
-      uint32_t h = start;
-      do {
-        const double length = (Map().ToPoint(h) - Map().FromPoint(h)).norm();
-        alone = alone && Map().edges()[h / 2].source == source;
-        length_m += length;
-        if (!out_.is_wall[Map().FaceOf(h ^ 1u)]) free_m += length;
-        h = Map().Next(h);
-      } while (h != start);
-      if (alone && 2 * free_m > length_m) out_.is_wall[f] = true;
+      if (!out_.is_wall[f] && Map().LoopsOf(f).size() == 1 && IsPier(f)) out_.is_wall[f] = true;
     }
+  }
+
+  bool IsPier(uint32_t face) const {
+    const uint32_t start = Map().LoopsOf(face)[0], source = Map().edges()[start / 2].source;
+    double free_m = 0, length_m = 0;
+    bool one_outline = source < drawing_.paths.size() && drawing_.paths[source].closed;
+    uint32_t h = start;
+    do {
+      const LineMap::Edge& edge = Map().edges()[h / 2];
+      if (edge.source < drawing_.paths.size() && drawing_.paths[edge.source].role == LineRole::kAny) return false;
+      const double length = (Map().ToPoint(h) - Map().FromPoint(h)).norm();
+      one_outline = one_outline && edge.source == source;
+      length_m += length;
+      if (!out_.is_wall[Map().FaceOf(h ^ 1u)]) free_m += length;
+      h = Map().Next(h);
+    } while (h != start);
+    return 2 * free_m > length_m && LesserSide(Map().RingAt(start)) <= (one_outline ? options_.max_pier_m : options_.max_loose_pier_m);
   }
 
   bool IsSingle(uint32_t e) const {

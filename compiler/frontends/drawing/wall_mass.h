@@ -17,6 +17,7 @@ struct MassOptions {
   double max_thickness_m = 0.65;     // of a wall
   double min_thickness_m = 0.02;     // narrower faces are double strokes
   double max_pier_m = 1.5;           // the lesser side of a closed outline that stands for itself, to be a solid
+  double max_loose_pier_m = 0.9;     // ... of one that is drawn by several lines
   double single_line_thickness_m = 0.1;  // of walls that are drawn as one line
   double max_double_share = 0.4;     // of the length of lines that has a partner, for the others to be walls too
   double min_single_m = 0.3;         // shorter lines without a partner are no walls
@@ -37,8 +38,8 @@ struct WallMass {
 };
 
 // Loose ends are closed first: the two of a wall that ends openly, those that stop short of a line, and breaks. A face is a wall if what
-// lies across it from most of its boundary is no farther than walls are thick in this drawing; so is what a wall's fill covers, and a closed
-// outline that stands for itself. `paths`: those of `drawing` that may bound walls. None: too many crossings.
+// lies across it from most of its boundary is no farther than walls are thick in this drawing; so is what a wall's fill covers, and an outline
+// on a layer of walls that has free space around it. `paths`: those of `drawing` that may bound walls. None: too many crossings.
 [[nodiscard]] std::optional<WallMass> FindWallMass(const Drawing& drawing, const std::vector<uint32_t>& paths, const MassOptions& options);
 
 }  // namespace plumb::compiler

@@ -120,6 +120,7 @@ class Builder : public DL_CreationAdapter {
   void addMTextChunk(const std::string& text) override { mtext_ += text; }
   void addMText(const DL_MTextData& d) override {
     const std::vector<std::string> lines = PlainLines(mtext_ + d.text);
+    const bool underlined = (mtext_ + d.text).find("\\L") != std::string::npos;
     mtext_.clear();
     DxfEntity* e = NewEntity();
     if (e == nullptr) return;
@@ -129,6 +130,7 @@ class Builder : public DL_CreationAdapter {
       const double width = kLetter * d.height * static_cast<double>(lines[i].size());
       const double down = kLine * d.height * (static_cast<double>(i) + 0.5 - (row == 1 ? 0.5 * count : row == 2 ? count : 0.0));
       AppendText(lines[i], {d.ipx, d.ipy}, {width * (column == 0 ? 0.5 : column == 2 ? -0.5 : 0.0), -down}, d.angle, d.height, *e);
+      e->texts.back().underlined = underlined;
     }
   }
   void addHatch(const DL_HatchData&) override { Finish(), hatch_open_ = true, polyline_header_ = header_; }
@@ -224,13 +226,14 @@ class Builder : public DL_CreationAdapter {
     const double x = d.hJustification == 1 || d.hJustification == 4 ? 0 : d.hJustification == 2 ? -0.5 * width : 0.5 * width;
     const double y = d.vJustification == 3 ? -0.5 * d.height : d.vJustification == 2 || d.hJustification == 4 ? 0 : 0.5 * d.height;
     AppendText(text, aligned ? Eigen::Vector2d(d.apx, d.apy) : Eigen::Vector2d(d.ipx, d.ipy), {x, y}, d.angle, d.height, *e);
+    e->texts.back().underlined = d.text.find("%%u") != std::string::npos || d.text.find("%%U") != std::string::npos;
     if (header_.mirrored) e->texts.back().at.x() = -e->texts.back().at.x();
   }
 
   // dxflib gives angles of texts in radians.
   static void AppendText(const std::string& text, const Eigen::Vector2d& at, const Eigen::Vector2d& offset, double angle_rad, double height, DxfEntity& e) {
     const double c = std::cos(angle_rad), s = std::sin(angle_rad);
-    e.texts.push_back({text, at + Eigen::Vector2d(c * offset.x() - s * offset.y(), s * offset.x() + c * offset.y()), height});
+    e.texts.push_back({text, at + Eigen::Vector2d(c * offset.x() - s * offset.y(), s * offset.x() + c * offset.y()), height, false});
   }
 
   // Straight sides and arcs of a polyline as paths of their own where both occur, so that only steps of curves count as such.

@@ -24,6 +24,7 @@ struct DxfText {
   std::string text;
   Eigen::Vector2d at = Eigen::Vector2d::Zero();
   double height = 0;
+  bool underlined = false;
 };
 
 struct DxfInsert {

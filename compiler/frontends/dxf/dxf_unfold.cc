@@ -127,7 +127,7 @@ class Unfolder {
     const double scale = std::sqrt(std::abs(place.T_drawing_block.linear().determinant()));
     for (const DxfText& text : e.texts) {
       if (!text.at.allFinite() || !std::isfinite(text.height)) continue;
-      out_.texts.push_back({text.text, place.T_drawing_block * text.at, scale * text.height, uses_[layer] == LayerUse::kRoomName, LocationOf(e, place)});
+      out_.texts.push_back({text.text, place.T_drawing_block * text.at, scale * text.height, text.underlined, uses_[layer] == LayerUse::kRoomName, LocationOf(e, place)});
     }
   }
 

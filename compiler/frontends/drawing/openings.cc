@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kOff_m = 1e-4;
 constexpr double kAgainst = 0.96;   // cosine between sides that face each other
+constexpr double kSkewEnds = 0.87;  // ... between ends of walls: the two lines of a wall often end askew
 constexpr double kMinEnd_m = 0.03;  // narrower ends are no walls
 constexpr double kBesides_m = 0.01;  // between panels that slide past each other
 constexpr double kSillShare = 0.85;  // a window's line runs from jamb to jamb
@@ -84,7 +85,7 @@ class OpeningFinder {
     }
     if (!first || first->t_m < options_.min_width_m) return std::nullopt;
     const Side& t = outline_.sides()[first->side];
-    if (t.along().dot(s.along()) > -kAgainst) return std::nullopt;
+    if (t.along().dot(s.along()) > -kSkewEnds) return std::nullopt;
     Gap gap;
     gap.side_a = end;
     gap.side_b = first->side;
@@ -153,7 +154,8 @@ class OpeningFinder {
       const double span = (part.second - part.first) / o.width_m();
       const bool swing = std::any_of(path.arcs.begin(), path.arcs.end(), [&](const Arc& arc) { return IsSwing(arc, options_) && IsLeafOf(arc.radius_m / o.width_m()); });
       const double share = (b - a).norm() / o.width_m();
-      if (path.role != LineRole::kWindow && !path.curved && !along && IsLeafOf(share))
+      const double from_jamb = std::min(std::abs(std::abs(a.x()) - half), std::abs(std::abs(b.x()) - half));
+      if (path.role != LineRole::kWindow && !path.curved && !along && IsLeafOf(share) && from_jamb < options_.symbol_slack_m)
         out.leaf = std::min(out.leaf, stroke.path);
       if (span > 0.4 && span < 0.7) panels.push_back(0.5 * (a.y() + b.y()));
       if (swing && path.role != LineRole::kWindow) out.swing = std::min(out.swing, stroke.path);
@@ -171,7 +173,7 @@ class OpeningFinder {
   }
 
   // The leaf of a door is about as long as the door is wide, or half as long where there are two.
-  static bool IsLeafOf(double share) { return (share > 0.75 && share < 1.2) || (share > 0.42 && share < 0.58); }
+  static bool IsLeafOf(double share) { return (share > 0.8 && share < 1.2) || (share > 0.42 && share < 0.58); }
 
   static double LengthOfUnion(std::vector<Interval> parts) {
     std::sort(parts.begin(), parts.end());

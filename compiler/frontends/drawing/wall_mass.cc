@@ -45,10 +45,12 @@ class MassFinder {
     if (const size_t before = lines_.size(); AddClosings(), lines_.size() > before && !Build()) return std::nullopt;
     Classify();
     if (out_.single_lines) {
+      const double single_m = out_.single_m;
       AddSingleLines();
       if (!Build()) return std::nullopt;
       Classify();
       out_.single_lines = true;
+      out_.single_m = single_m;
     }
     for (const LineMap::Edge& e : Map().edges()) out_.is_curved.push_back(e.source < drawing_.paths.size() && drawing_.paths[e.source].curved);
     return std::move(out_);

@@ -99,7 +99,7 @@ class RunFinder {
     }
     for (const DrawnOpening& o : openings_) {
       if (o.in_wall) continue;
-      const Eigen::Vector2d slack = Eigen::Vector2d::Constant(o.depth_m + kAtJamb_m);
+      const Eigen::Vector2d slack = Eigen::Vector2d::Constant(kJunction * options_.max_thickness_m);
       Eigen::AlignedBox2d at_from(o.from - slack, o.from + slack), at_to(o.to - slack, o.to + slack);
       tree.ForEachIn(at_from, [&](uint32_t i) {
         tree.ForEachIn(at_to, [&](uint32_t j) {
@@ -117,13 +117,19 @@ class RunFinder {
     return gap <= kJunction * options_.max_thickness_m && outline_.InWall(a.At(0.5 * (lo + hi), 0.5 * (a.left_m + a.right_m)));
   }
 
-  // The opening is the gap between them.
+  // The opening is the gap between them, or most of it where other walls stand beside it.
   bool Spans(const DrawnOpening& o, const WallRun& a, const WallRun& b) const {
     if (std::abs(o.along().dot(a.along)) < kSameLine) return false;
     const double sb0 = a.S(b.At(b.start_m, b.right_m)), sb1 = a.S(b.At(b.end_m, b.right_m));
-    const double lo = std::min(a.end_m, sb1), hi = std::max(a.start_m, sb0);
-    const double t = a.T(o.middle());
-    return t > a.right_m && t < a.left_m && std::abs(a.S(o.middle()) - 0.5 * (lo + hi)) < kAtJamb_m && std::abs(o.width_m() - (hi - lo)) < 2 * kAtJamb_m;
+    const double lo = std::min(a.end_m, sb1), hi = std::max(a.start_m, sb0), t = a.T(o.middle());
+    const auto [from, to] = std::minmax({a.S(o.from), a.S(o.to)});
+    return t > a.right_m && t < a.left_m && IsWallFrom(a, lo, from) && IsWallFrom(a, to, hi);
+  }
+
+  bool IsWallFrom(const WallRun& run, double from_m, double to_m) const {
+    if (std::abs(to_m - from_m) < kAtJamb_m) return true;
+    if (to_m < from_m || to_m - from_m > kJunction * options_.max_thickness_m) return false;
+    return outline_.InWall(run.At(0.5 * (from_m + to_m), 0.5 * (run.left_m + run.right_m)));
   }
 
   std::vector<WallRun> MergedRuns() {

@@ -57,7 +57,7 @@ TEST_P(Drawings, SameBytesEveryTime) {
   if (!fs::exists(path)) GTEST_SKIP() << path << " is not here";
   const CompileResult a = Compile(path.string()), b = Compile(path.string());
   ASSERT_TRUE(a.graph && b.graph);
-  EXPECT_EQ(SerializeAGraph(*a.graph), SerializeAGraph(*b.graph));
+  EXPECT_EQ(WriteAGraph(*a.graph), WriteAGraph(*b.graph));
 }
 
 INSTANTIATE_TEST_SUITE_P(OfOthers, Drawings, testing::ValuesIn(kCounted), [](const auto& info) {

@@ -24,6 +24,7 @@ constexpr std::array<KnownUnit, 8> kUnits = {{{"mm", 1e-3, true}, {"cm", 1e-2, t
                                               {"km", 1e3, false}, {"in", 0.0254, true}, {"ft", 0.3048, true}, {"yd", 0.9144, false}}};
 constexpr size_t kSamples = 400;
 constexpr double kParallel = 1e-3;
+constexpr double kContradiction = 1.5;  // of misfits: sizes wrong by more than a factor of four
 constexpr double kMinPlan_m = 2, kMaxPlan_m = 3000;
 
 struct Line {
@@ -132,7 +133,7 @@ UnitChoice ChooseUnit(const DrawnSizes& sizes, const std::optional<LengthUnit>& 
     best.unit = {unit.name, unit.metres};
   }
   // The stated one stays where the sizes speak for no other.
-  if (stated && Misfit(sizes, stated->metres, options) <= best_misfit + std::numbers::ln2) return {*stated, true, Sizes(sizes, *stated)};
+  if (stated && Misfit(sizes, stated->metres, options) <= best_misfit + kContradiction) return {*stated, true, Sizes(sizes, *stated)};
   best.stated_holds = false;
   best.reason = Sizes(sizes, best.unit);
   return best;

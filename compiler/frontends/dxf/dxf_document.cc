@@ -422,9 +422,10 @@ class Feeder {
     if (!Hand()) return std::nullopt;
     Feed(0, "EOF");
     builder_.Finish();
-    if (!section_.empty()) {
+    if (!section_.empty() || (!ended_ && !saw_entities_)) {
       sink_.Emit(DiagnosticKind::kDrawingCutOff, {groups_.line(), 0, {}, {}, 0},
-                 fmt::format("the file ends within its section {} after {} {}", section_, groups_.line(), groups_.binary() ? "groups" : "lines"),
+                 fmt::format("the file ends {} after {} {}", section_.empty() ? "before its section ENTITIES" : "within its section " + section_, groups_.line(),
+                             groups_.binary() ? "groups" : "lines"),
                  "copy or export the file again");
       return std::nullopt;
     }
@@ -453,6 +454,7 @@ class Feeder {
     entity_.clear();
     const std::string& type = groups[0].value;
     if (type == "EOF") ended_ = true;
+    if (section_ == "ENTITIES" && type == "ENDSEC") saw_entities_ = true;
     if (type == "SECTION") section_ = groups.size() > 1 ? groups[1].value : "?";
     const bool wanted = section_ == "HEADER" || section_ == "TABLES" || section_ == "BLOCKS" || section_ == "ENTITIES";
     if (!wanted || (section_ == "TABLES" && type != "LAYER" && type != "SECTION" && type != "ENDSEC") || (section_ == "HEADER" && !FeedHeader(groups))) {
@@ -496,7 +498,7 @@ class Feeder {
   DiagnosticSink& sink_;
   Groups entity_;
   std::string section_;
-  bool ended_ = false;
+  bool ended_ = false, saw_entities_ = false;
 };
 
 }  // namespace

@@ -17,7 +17,7 @@ using test::DxfText;
 class DxfPlans : public testing::Test {
  protected:
   std::string Write(const std::string& name, const std::string& bytes) {
-    const std::string path = (folder_.path() / name).string();
+    const std::string path = folder_.path() + "/" + name;
     std::ofstream(path, std::ios::binary) << bytes;
     return path;
   }

@@ -14,7 +14,7 @@ namespace {
 
 constexpr uint32_t kClosing = 0xfffffffeu;  // source of a line that the drawing does not have
 constexpr uint32_t kSingle = 0xfffffffdu;   // of the outline of a wall drawn as one line
-constexpr double kParallel = 0.97, kSquare = 0.35;
+constexpr double kParallel = 0.97, kSquare = 0.35, kBeside = 0.05;
 constexpr double kOff_m = 1e-4;  // from a line into the face beside it
 
 struct WeightedLength {
@@ -125,7 +125,37 @@ class MassFinder {
       const Eigen::Vector2d d = b.at - a.at;
       return a.out.dot(b.out) > kParallel && std::abs(d.dot(a.out)) <= kSquare * d.norm() && std::min(a.length_m, b.length_m) > 0.5 * d.norm();
     });
+    CapAtCorners(ends);
     JoinNearest(ends, options_.max_break_m, [](const LooseEnd&, const LooseEnd&) { return true; });
+  }
+
+  // The other line of the wall ends beside this one as well, but another wall goes on from there.
+  void CapAtCorners(std::vector<LooseEnd>& ends) {
+    const Eigen::Vector2d reach = Eigen::Vector2d::Constant(options_.max_thickness_m);
+    for (LooseEnd& e : ends) {
+      if (e.used) continue;
+      std::pair<double, uint32_t> best(options_.max_thickness_m, kNone);
+      Map().VisitEdges({e.at - reach, e.at + reach}, [&](uint32_t edge) {
+        for (const uint32_t h : {2 * edge, 2 * edge + 1}) {
+          const Eigen::Vector2d d = Map().ToPoint(h) - e.at, line = Map().ToPoint(h) - Map().FromPoint(h);
+          const bool beside = d.norm() > options_.min_thickness_m && std::abs(d.dot(e.out)) <= kBeside * d.norm();
+          if (!beside || Map().To(h) == e.vertex || line.dot(e.out) < kParallel * line.norm() || GoesOn(h)) continue;
+          best = std::min(best, {d.norm(), Map().To(h)});
+        }
+      });
+      if (best.second == kNone || e.length_m < 0.5 * best.first) continue;
+      e.used = true;
+      AddLine(e.at, Map().vertices()[best.second]);
+    }
+  }
+
+  // Straight on, in another edge of the line.
+  bool GoesOn(uint32_t half_edge) const {
+    const Eigen::Vector2d d = (Map().ToPoint(half_edge) - Map().FromPoint(half_edge)).normalized();
+    for (uint32_t h = Map().Next(half_edge); h != (half_edge ^ 1u); h = Map().Next(h ^ 1u)) {
+      if ((Map().ToPoint(h) - Map().FromPoint(h)).normalized().dot(d) > kParallel) return true;
+    }
+    return false;
   }
 
   void ExtendToLines(std::vector<LooseEnd>& ends) {

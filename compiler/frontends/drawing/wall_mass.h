@@ -21,7 +21,7 @@ struct MassOptions {
   double single_line_thickness_m = 0.1;  // of walls that are drawn as one line
   double max_double_share = 0.4;     // of the length of lines that has a partner, for the others to be walls too
   double min_single_m = 0.3;         // shorter lines without a partner are no walls
-  size_t max_vertices = 8'000'000;
+  size_t max_vertices = 2'000'000;      // where lines end, meet or cross
   [[nodiscard]] std::string Check() const;
 };
 

@@ -2,8 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <fstream>
+#include <vector>
 
 #include "compiler/compile.h"
 #include "tests/support/dxf_text.h"
@@ -111,6 +115,46 @@ TEST_F(DxfPlans, MillimetresAndStatedUnitGiveTheSamePlan) {
   lies.Header("$INSUNITS", 70, "4");
   EXPECT_TRUE(Says(CompileText(lies), DiagnosticKind::kUnitContradicted));
   EXPECT_FALSE(Says(CompileText(lies, options), DiagnosticKind::kUnitContradicted));
+}
+
+// A half round of 3 m inner radius on a straight wall, 0.2 m thick: both outlines closed, with bulges.
+TEST_F(DxfPlans, CurvedWallsBoundTheirRoom) {
+  DxfText dxf;
+  dxf.Header("$INSUNITS", 70, "6");
+  dxf.Entity("LWPOLYLINE", "WALL", {{90, "4"}, {70, "1"}, {10, "-3.2"}, {20, "-0.2"}, {10, "3.2"}, {20, "-0.2"}, {10, "3.2"}, {20, "0"}, {42, "1"}, {10, "-3.2"}, {20, "0"}});
+  dxf.Entity("LWPOLYLINE", "WALL", {{90, "2"}, {70, "1"}, {10, "-3"}, {20, "0"}, {10, "3"}, {20, "0"}, {42, "1"}});
+  const AGraph g = GraphOf(dxf);
+  ASSERT_EQ(g.rooms.size(), 1u);
+  EXPECT_NEAR(g.rooms[0].area_m2, 0.5 * 3.14159265 * 9, 0.06);
+}
+
+TEST_F(DxfPlans, HatchedWallsAreWallsHoweverThick) {
+  DxfText dxf;
+  dxf.Header("$INSUNITS", 70, "6");
+  for (const auto& [x0, y0, x1, y1] : std::vector<std::array<double, 4>>{{0, 0, 8, 1}, {0, 5, 8, 6}, {0, 1, 1, 5}, {7, 1, 8, 5}}) {
+    const auto n = [](double v) { return fmt::format("{}", v); };
+    dxf.Entity("SOLID", "WALL", {{10, n(x0)}, {20, n(y0)}, {11, n(x1)}, {21, n(y0)}, {12, n(x0)}, {22, n(y1)}, {13, n(x1)}, {23, n(y1)}});
+  }
+  CompileOptions options;
+  options.dxf.unit = "m";
+  const AGraph g = GraphOf(dxf, options);
+  ASSERT_EQ(g.rooms.size(), 1u);
+  EXPECT_NEAR(g.rooms[0].area_m2, 24, 0.01);
+}
+
+// Neither jambs nor corners have a line across: ends of walls are closed where both lines end beside each other.
+TEST_F(DxfPlans, OpenEndsOfWallsAreClosed) {
+  DxfText dxf;
+  dxf.Header("$INSUNITS", 70, "6");
+  const auto wall = [&](double x0, double x1, double y0, double y1) { dxf.Line("WALL", x0, y0, x1, y0).Line("WALL", x0, y1, x1, y1); };
+  wall(0, 5, 0, 0.2);
+  wall(0, 2, 3.8, 4), wall(2.9, 5, 3.8, 4);
+  for (const double x : {0.0, 4.8}) dxf.Line("WALL", x, 0.2, x, 3.8).Line("WALL", x + 0.2, 0.2, x + 0.2, 3.8);
+  const AGraph g = GraphOf(dxf);
+  ASSERT_EQ(g.rooms.size(), 1u);
+  EXPECT_NEAR(g.rooms[0].area_m2, 4.6 * 3.6, 0.01);
+  ASSERT_EQ(g.doorways.size(), 1u);
+  EXPECT_NEAR(g.doorways[0].width_m, 0.9, 0.002);
 }
 
 TEST_F(DxfPlans, TextNamesItsRoom) {

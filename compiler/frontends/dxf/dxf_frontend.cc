@@ -6,6 +6,7 @@
 #include <array>
 
 #include "compiler/frontends/drawing/layer_rules.h"
+#include "compiler/frontends/drawing/plane.h"
 #include "compiler/frontends/drawing/sheets.h"
 #include "compiler/frontends/drawing/units.h"
 #include "compiler/frontends/dxf/dxf_document.h"
@@ -16,6 +17,8 @@ namespace {
 
 // $INSUNITS by number; others are no units that buildings are drawn in.
 constexpr std::array<const char*, 15> kInsunits = {"", "in", "ft", "", "mm", "cm", "m", "km", "", "", "yd", "", "", "", "dm"};
+
+constexpr double kFar_m = 1000;
 
 std::optional<LengthUnit> StatedUnit(const DxfDocument& document) {
   if (!document.insunits || *document.insunits < 0 || *document.insunits >= static_cast<int>(kInsunits.size())) return std::nullopt;
@@ -41,6 +44,7 @@ class Frontend {
       return false;
     }
     ToMetres(*document, *drawing);
+    MoveToOrigin(*drawing, plan);
     MendRoles(*drawing);
     return AppendSheets(std::move(*drawing), storey, plan);
   }
@@ -81,6 +85,23 @@ class Frontend {
       for (Arc& arc : path.arcs) arc.center *= metres, arc.radius_m *= metres;
     }
     for (DrawnText& text : drawing.texts) text.at *= metres, text.height_m *= metres;
+  }
+
+  // Of drawings in coordinates of a country: numbers near zero keep their precision. All storeys of a plan have one origin.
+  void MoveToOrigin(Drawing& drawing, PlanIr& plan) {
+    Eigen::AlignedBox2d box;
+    for (const DrawnPath& path : drawing.paths) box.extend(BoxOf(path.points));
+    const Eigen::Vector2d center = box.center();
+    if (plan.storeys.empty() && center.norm() > kFar_m) {
+      plan.origin << center.array().round(), 0;
+      sink_.Emit(DiagnosticKind::kFarOrigin, {}, fmt::format("the plan lies {:.0f} km from its zero; it is compiled about ({:.0f}, {:.0f})", center.norm() / 1000, plan.origin.x(), plan.origin.y()));
+    }
+    const Eigen::Vector2d shift = -plan.origin.head<2>();
+    for (DrawnPath& path : drawing.paths) {
+      for (auto& p : path.points) p += shift;
+      for (Arc& arc : path.arcs) arc.center += shift;
+    }
+    for (DrawnText& text : drawing.texts) text.at += shift;
   }
 
   static const char* Measurement(const DxfDocument& document) {

@@ -157,6 +157,16 @@ TEST_F(DxfPlans, OpenEndsOfWallsAreClosed) {
   EXPECT_NEAR(g.doorways[0].width_m, 0.9, 0.002);
 }
 
+TEST_F(DxfPlans, CoordinatesOfACountryKeepTheirPrecision) {
+  DxfText far;
+  far.Header("$INSUNITS", 70, "6").Begin("HOUSE").Box("0", 0, 0, 5, 4).Box("0", 0.2, 0.2, 4.8, 3.8).End().Insert("WALL", "HOUSE", 3456789.25, 5432100.5);
+  const AGraph g = GraphOf(far);
+  ASSERT_EQ(g.rooms.size(), 1u);
+  EXPECT_NEAR(g.rooms[0].area_m2, 4.6 * 3.6, 1e-3);
+  EXPECT_NEAR(g.rooms[0].center.x(), 3456791.75, 1e-3);
+  EXPECT_NEAR(g.rooms[0].center.y(), 5432102.5, 1e-3);
+}
+
 TEST_F(DxfPlans, TextNamesItsRoom) {
   const AGraph g = GraphOf(TwoRooms("WALL").Text("TEXT", "B\\U+00FCro", 1, 2).Text("TEXT", "13.7 m2", 1, 1.5));
   ASSERT_EQ(g.rooms.size(), 2u);

@@ -60,8 +60,8 @@ TEST_P(Drawings, SameBytesEveryTime) {
   EXPECT_EQ(WriteAGraph(*a.graph), WriteAGraph(*b.graph));
 }
 
-INSTANTIATE_TEST_SUITE_P(OfOthers, Drawings, testing::ValuesIn(kCounted), [](const auto& info) {
-  std::string name = fs::path(info.param.path).stem().string();
+INSTANTIATE_TEST_SUITE_P(OfOthers, Drawings, testing::ValuesIn(kCounted), [](const auto& drawing) {
+  std::string name = fs::path(drawing.param.path).stem().string();
   std::replace_if(name.begin(), name.end(), [](char c) { return std::isalnum(static_cast<unsigned char>(c)) == 0; }, '_');
   return name;
 });

@@ -248,6 +248,22 @@ void LineMap::PlaceHoles(const std::vector<uint32_t>& loops, const std::vector<d
   for (uint32_t& f : face_) f = face_of_loop[f];
 }
 
+std::optional<Eigen::Vector2d> LineMap::PointIn(uint32_t face) const {
+  constexpr double kReach_m = 2e-3, kOffLine_m = 1e-7;
+  const uint32_t start = loops_[face][0];
+  uint32_t h = start, best = kNone;
+  double best_m = 0;
+  do {
+    const double length = (ToPoint(h) - FromPoint(h)).norm();
+    if (length > best_m && face_[h ^ 1u] != face) best_m = length, best = h;
+    h = next_[h];
+  } while (h != start);
+  if (best == kNone) return std::nullopt;
+  const Eigen::Vector2d d = ToPoint(best) - FromPoint(best), n = Perp(d).normalized(), middle = FromPoint(best) + 0.5 * d;
+  const auto across = Cast(middle + kOffLine_m * n, n, kReach_m, [&](uint32_t e) { return e != best / 2; });
+  return middle + 0.5 * (across ? across->t_m : kReach_m) * n;
+}
+
 std::vector<Eigen::Vector2d> LineMap::RingAt(uint32_t half_edge) const {
   std::vector<Eigen::Vector2d> out;
   uint32_t h = half_edge;

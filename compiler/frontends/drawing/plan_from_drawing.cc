@@ -58,9 +58,8 @@ class StoreyBuilder {
   void SortPaths() {
     std::vector<const Arc*> swings;
     for (const DrawnPath& path : drawing_.paths) {
-      if (path.role != LineRole::kAny && path.role != LineRole::kWall) continue;
       for (const Arc& arc : path.arcs) {
-        if (IsSwing(arc, options_.openings) && path.role == LineRole::kAny) swings.push_back(&arc);
+        if (path.role == LineRole::kAny && IsSwing(arc, options_.openings)) swings.push_back(&arc);
       }
     }
     std::vector<Eigen::AlignedBox2d> hinges;
@@ -192,7 +191,7 @@ class StoreyBuilder {
     const BoxTree<2> tree(std::move(boxes));
     std::vector<bool> solid(map->num_faces(), false);
     for (uint32_t f = 1; f < map->num_faces(); ++f) {
-      const std::optional<Eigen::Vector2d> p = PointIn(*map, f);
+      const std::optional<Eigen::Vector2d> p = map->PointIn(f);
       if (!p) continue;
       bool in_run = false;
       tree.ForEachIn(Eigen::AlignedBox2d(*p), [&](uint32_t r) { in_run = in_run || runs_[r].Holds(*p, 0); });
@@ -201,21 +200,6 @@ class StoreyBuilder {
     }
     NameFaces(*map, solid);
     return true;
-  }
-
-  static std::optional<Eigen::Vector2d> PointIn(const LineMap& map, uint32_t face) {
-    uint32_t h = map.LoopsOf(face)[0], best = kNone;
-    const uint32_t start = h;
-    double best_m = 0;
-    do {
-      const double length = (map.ToPoint(h) - map.FromPoint(h)).norm();
-      if (length > best_m && map.FaceOf(h ^ 1u) != face) best_m = length, best = h;
-      h = map.Next(h);
-    } while (h != start);
-    if (best == kNone) return std::nullopt;
-    const Eigen::Vector2d a = map.FromPoint(best), d = map.ToPoint(best) - a, n = Perp(d).normalized(), m = a + 0.5 * d;
-    const auto across = map.Cast(m + 1e-7 * n, n, 2 * kOff_m, [&](uint32_t e) { return e != best / 2; });
-    return m + 0.5 * (across ? across->t_m : 2 * kOff_m) * n;
   }
 
   void AddLeftover(const LineMap& map, uint32_t face) {

@@ -204,27 +204,12 @@ class MassFinder {
     CountSingleLines();
   }
 
-  std::optional<Eigen::Vector2d> PointIn(uint32_t face) const {
-    uint32_t best = kNone;
-    double best_m = 0;
-    uint32_t h = Map().LoopsOf(face)[0];
-    const uint32_t start = h;
-    do {
-      const double length = (Map().ToPoint(h) - Map().FromPoint(h)).norm();
-      if (length > best_m && Map().FaceOf(h ^ 1u) != face) best_m = length, best = h;
-      h = Map().Next(h);
-    } while (h != start);
-    if (best == kNone) return std::nullopt;
-    const Eigen::Vector2d d = Map().ToPoint(best) - Map().FromPoint(best);
-    return 0.5 * (Map().FromPoint(best) + Map().ToPoint(best)) + kOff_m * Perp(d).normalized();
-  }
-
   void MarkFilled() {
     std::vector<Eigen::AlignedBox2d> boxes;
     for (const auto& ring : fills_) boxes.push_back(BoxOf(ring));
     const BoxTree<2> tree(std::move(boxes));
     for (uint32_t f = 1; f < Map().num_faces() && !fills_.empty(); ++f) {
-      const std::optional<Eigen::Vector2d> p = PointIn(f);
+      const std::optional<Eigen::Vector2d> p = Map().PointIn(f);
       if (!p) continue;
       tree.ForEachIn(Eigen::AlignedBox2d(*p), [&](uint32_t i) {
         if (Contains(fills_[i], *p)) out_.is_wall[f] = true;

@@ -226,7 +226,6 @@ class RunFinder {
     run.left_m = run.T(o.from) + 0.5 * o.depth_m;
     run.right_m = run.T(o.from) - 0.5 * o.depth_m;
     run.source = o.path;
-    run.piece = true;
     return run;
   }
 

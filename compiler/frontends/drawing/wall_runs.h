@@ -14,7 +14,6 @@ struct WallRun {
   Eigen::Vector2d along = Eigen::Vector2d::UnitX();
   double start_m = 0, end_m = 0, right_m = 0, left_m = 0;
   uint32_t source = 0xffffffffu;  // a path that one of its sides is drawn by
-  bool piece = false;             // no wall of its own: what closes a gap above a door between two others
   std::vector<uint32_t> openings;
   [[nodiscard]] Eigen::Vector2d At(double s, double t) const { return s * along + t * Eigen::Vector2d(-along.y(), along.x()); }
   [[nodiscard]] double S(const Eigen::Vector2d& p) const { return along.dot(p); }

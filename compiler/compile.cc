@@ -42,10 +42,60 @@ std::vector<Option> Recorded(const CompileOptions& options) {
           {"min_room_area_m2", fmt::format("{}", options.min_room_area_m2)}};
 }
 
-std::optional<PlanIr> ReadPlan(const std::string& path, DiagnosticSink& sink) {
+void AddDrawingOptions(const DxfOptions& options, std::vector<Option>& out) {
+  const HeightOptions& heights = options.drawing.heights;
+  out.insert(out.end(), {{"storey_height_m", fmt::format("{}", heights.storey_m)},
+                         {"door_height_m", fmt::format("{}", heights.door_m)},
+                         {"sill_height_m", fmt::format("{}", heights.sill_m)},
+                         {"window_top_m", fmt::format("{}", heights.window_top_m)},
+                         {"wall_thickness_m", fmt::format("{}", options.drawing.mass.single_line_thickness_m)},
+                         {"unit", options.unit},
+                         {"layers", options.layers},
+                         {"sheet", fmt::format("{}", options.sheet)}});
+}
+
+void ReportHeights(const HeightOptions& heights, DiagnosticSink& sink) {
+  sink.Emit(DiagnosticKind::kHeightsAssumed, {},
+            fmt::format("a drawing has no heights: storeys of {:.2f} m, doors of {:.2f} m, windows from {:.2f} m to {:.2f} m are assumed",
+                        heights.storey_m, heights.door_m, heights.sill_m, heights.window_top_m));
+}
+
+// In the order of elevation, as PlanIr has its storeys. Where there are several files, messages say which.
+std::optional<PlanIr> ReadDrawings(std::vector<StoreyDrawing> storeys, const DxfOptions& options, DiagnosticSink& sink) {
+  std::stable_sort(storeys.begin(), storeys.end(), [](const auto& a, const auto& b) { return a.elevation_m < b.elevation_m; });
+  PlanIr plan;
+  for (const StoreyDrawing& storey : storeys) {
+    DiagnosticSink of_file;
+    const std::optional<Source> source = LoadSource(storey.path, of_file);
+    bool read = source && IsSupported(*source, of_file);
+    if (read && source->format != SourceFormat::kDxf) {
+      of_file.Emit(DiagnosticKind::kUnknownFormat, {}, fmt::format("`{}` is {}; storeys are drawings in DXF", storey.path, FormatName(source->format)));
+      read = false;
+    }
+    read = read && AppendDxf(*source, {{}, storey.name, {}, storey.elevation_m}, options, plan, of_file);
+    for (const Diagnostic& d : of_file.all())
+      sink.Emit(d.kind, d.location, storeys.size() > 1 ? fmt::format("{}: {}", storey.name, d.message) : d.message, d.hint);
+    if (!read) return std::nullopt;
+    if (!plan.source_path.empty()) continue;
+    plan.source_path = source->path;
+    plan.source_format = "DXF";
+    plan.source_sha256 = source->sha256;
+  }
+  ReportHeights(options.drawing.heights, sink);
+  return plan;
+}
+
+std::optional<PlanIr> ReadPlan(const std::string& path, const CompileOptions& options, DiagnosticSink& sink) {
   const std::optional<Source> source = LoadSource(path, sink);
   if (!source || !IsSupported(*source, sink)) return std::nullopt;
-  return ReadIfc(*source, sink);
+  if (source->format != SourceFormat::kDxf) return ReadIfc(*source, sink);
+  PlanIr plan;
+  if (!AppendDxf(*source, {{}, "Storey", {}, 0.0}, options.dxf, plan, sink)) return std::nullopt;
+  plan.source_path = source->path;
+  plan.source_format = "DXF";
+  plan.source_sha256 = source->sha256;
+  ReportHeights(options.dxf.drawing.heights, sink);
+  return plan;
 }
 
 // The solids are most of the memory and no longer needed: give it back before the file is put together. Places in the source stay.
@@ -74,8 +124,7 @@ void AddLocated(const PlanIr& plan, const std::vector<Diagnostic>& found, Diagno
   }
 }
 
-std::optional<AGraph> Run(const std::string& path, const CompileOptions& options, DiagnosticSink& sink) {
-  std::optional<PlanIr> plan = ReadPlan(path, sink);
+std::optional<AGraph> Run(std::optional<PlanIr> plan, const CompileOptions& options, DiagnosticSink& sink) {
   if (!plan) return std::nullopt;
   std::optional<Built> built = BuildAGraph(*plan, PassOptionsFrom(options), sink);
   if (!built) return std::nullopt;
@@ -85,7 +134,9 @@ std::optional<AGraph> Run(const std::string& path, const CompileOptions& options
   MoveToPlanFrame(*plan, graph);
   ForecastAliases({}, graph);
   AddLocated(*plan, ValidateGraph(graph), sink);
-  EmitProvenance(*plan, Recorded(options), sink, graph);
+  std::vector<Option> recorded = Recorded(options);
+  if (plan->source_format == "DXF") AddDrawingOptions(options.dxf, recorded);
+  EmitProvenance(*plan, recorded, sink, graph);
   return graph;
 }
 
@@ -98,7 +149,7 @@ std::string CompileOptions::Check() const {
     return fmt::format("CompileOptions.snap_radius_m = {}; must be in (0, 0.05]", snap_radius_m);
   if (!(max_gap_m >= 0 && max_gap_m <= 0.5)) return fmt::format("CompileOptions.max_gap_m = {}; must be in [0, 0.5]", max_gap_m);
   if (!(min_room_area_m2 >= 0)) return fmt::format("CompileOptions.min_room_area_m2 = {}; must not be negative", min_room_area_m2);
-  return {};
+  return dxf.Check();
 }
 
 bool CompileResult::has_internal_error() const {
@@ -106,14 +157,17 @@ bool CompileResult::has_internal_error() const {
   return std::any_of(all.begin(), all.end(), [](const Diagnostic& d) { return d.kind == DiagnosticKind::kInternalError; });
 }
 
-CompileResult Compile(const std::string& path, const CompileOptions& options) {
+namespace {
+
+template <class Read>
+CompileResult CompileFrom(const std::string& path, const CompileOptions& options, const Read& read) {
   CompileResult out;
   if (const std::string wrong = options.Check(); !wrong.empty()) {
     out.diagnostics.Emit(DiagnosticKind::kInternalError, {}, wrong);
     return out;
   }
   try {
-    out.graph = Run(path, options, out.diagnostics);
+    out.graph = Run(read(out.diagnostics), options, out.diagnostics);
   } catch (const std::bad_alloc&) {
     out.graph.reset();
     out.diagnostics.Emit(DiagnosticKind::kPlanTooComplex, {}, fmt::format("`{}` needs more memory than there is", path));
@@ -122,6 +176,17 @@ CompileResult Compile(const std::string& path, const CompileOptions& options) {
     out.diagnostics.Emit(DiagnosticKind::kInternalError, {}, fmt::format("the compiler failed: {}", e.what()));
   }
   return out;
+}
+
+}  // namespace
+
+CompileResult Compile(const std::string& path, const CompileOptions& options) {
+  return CompileFrom(path, options, [&](DiagnosticSink& sink) { return ReadPlan(path, options, sink); });
+}
+
+CompileResult CompileStoreys(const std::vector<StoreyDrawing>& storeys, const CompileOptions& options) {
+  const std::string path = storeys.empty() ? std::string() : storeys.front().path;
+  return CompileFrom(path, options, [&](DiagnosticSink& sink) { return ReadDrawings(storeys, options.dxf, sink); });
 }
 
 }  // namespace plumb::compiler

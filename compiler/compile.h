@@ -3,8 +3,10 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "compiler/diagnostics/diagnostic.h"
+#include "compiler/frontends/dxf/dxf_frontend.h"
 #include "schema/agraph.h"
 
 namespace plumb::compiler {
@@ -15,6 +17,12 @@ inline constexpr bool kVerifyByDefault = false;
 inline constexpr bool kVerifyByDefault = true;
 #endif
 
+// One storey of a plan that is drawn storey by storey.
+struct StoreyDrawing {
+  std::string name, path;
+  double elevation_m = 0;
+};
+
 struct CompileOptions {
   double section_height_m = 1.1;          // walls are cut here above the storey's zero to get their footprints
   double snap_radius_m = 0.002;           // vertices of the planar map closer than this become one
@@ -22,6 +30,7 @@ struct CompileOptions {
   double max_gap_m = 0.2;                 // walls closer than this are taken to meet where that keeps two rooms apart
   bool divide_open_plans = true;          // along the source's spaces where no walls do; false: one room
   bool verify_stages = kVerifyByDefault;  // check the invariants of every intermediate form; a fault is an InternalError
+  DxfOptions dxf;                         // for drawings
   // Empty if every field is valid; else names the field, its value and the rule.
   [[nodiscard]] std::string Check() const;
 };
@@ -35,5 +44,7 @@ struct CompileResult {
 
 // Reads and compiles the plan at `path`. Never throws; invalid options are an InternalError. Same file and options, same graph.
 [[nodiscard]] CompileResult Compile(const std::string& path, const CompileOptions& options = {});
+// Several drawings as the storeys of one plan; its source is the first one.
+[[nodiscard]] CompileResult CompileStoreys(const std::vector<StoreyDrawing>& storeys, const CompileOptions& options = {});
 
 }  // namespace plumb::compiler

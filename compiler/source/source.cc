@@ -31,9 +31,9 @@ bool LooksLikeDxf(std::string_view head) {
 
 const char* HintFor(SourceFormat format) {
   switch (format) {
-    case SourceFormat::kDwg: return "save it as DXF or export IFC from the CAD program";
+    case SourceFormat::kDwg: return "save it as DXF in the CAD program, or convert it with `dwg2dxf` (LibreDWG) or the ODA File Converter";
     case SourceFormat::kZip: return "unpack the archive and give the plan in it";
-    default: return "export the plan as IFC (STEP, .ifc)";
+    default: return "export the plan as IFC (STEP, .ifc) or DXF";
   }
 }
 
@@ -108,11 +108,11 @@ std::optional<Source> LoadSource(const std::string& path, DiagnosticSink& diagno
 }
 
 bool IsSupported(const Source& source, DiagnosticSink& diagnostics) {
-  if (source.format == SourceFormat::kIfcStep) return true;
+  if (source.format == SourceFormat::kIfcStep || source.format == SourceFormat::kDxf) return true;
   diagnostics.Emit(DiagnosticKind::kUnknownFormat, {},
                    source.bytes.empty()
                        ? fmt::format("`{}` is empty", source.path)
-                       : fmt::format("`{}` is {}; a plan is read as IFC in STEP syntax", source.path, FormatName(source.format)),
+                       : fmt::format("`{}` is {}; a plan is read as IFC in STEP syntax or as a DXF drawing", source.path, FormatName(source.format)),
                    HintFor(source.format));
   return false;
 }

@@ -29,8 +29,8 @@ std::vector<std::string> PlanFolders() {
 }
 
 fs::path DrawingIn(const fs::path& folder) {
-  for (const auto& entry : fs::directory_iterator(folder)) {
-    if (entry.path().stem() == "plan") return entry.path();
+  for (const char* ending : {".ifc", ".dxf"}) {
+    if (fs::exists(folder / (std::string("plan") + ending))) return folder / (std::string("plan") + ending);
   }
   return {};
 }

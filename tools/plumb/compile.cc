@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <filesystem>
 #include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
 #include <iterator>
 #include <memory>
 #include <vector>
@@ -19,7 +21,9 @@ namespace plumb::tools {
 namespace {
 
 struct CompileFlags {
-  std::string plan, output, diagnostics_json;
+  std::vector<std::string> plans, storeys;
+  std::string plan;  // the first one
+  std::string output, diagnostics_json;
   size_t max_per_kind = 3;
   compiler::CompileOptions options;
 };
@@ -43,17 +47,51 @@ void Tell(const CompileFlags& flags, const std::vector<compiler::Diagnostic>& di
   if (!text.empty()) console.Error(text.substr(0, text.size() - 1));
 }
 
-compiler::CompileResult CompileWithin(const CompileFlags& flags) {
-  const CompileLimits limits(flags.plan);
-  return compiler::Compile(flags.plan, flags.options);
+// NAME=FILE@ELEVATION. The file may have `@` in its name, the name `=` not.
+Expected<compiler::StoreyDrawing> ParseStorey(const std::string& text) {
+  const size_t equals = text.find('='), at = text.rfind('@');
+  const auto wrong = [&] { return Fail(ErrorCode::kBadOption, fmt::format("--storey {}: must be NAME=FILE@ELEVATION, as in EG=ground.dxf@0", text)); };
+  if (equals == std::string::npos || equals == 0 || at == std::string::npos || at < equals + 2) return wrong();
+  compiler::StoreyDrawing out{text.substr(0, equals), text.substr(equals + 1, at - equals - 1), 0};
+  const char *first = text.data() + at + 1, *last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(first, last, out.elevation_m);
+  if (error != std::errc() || end != last || !std::isfinite(out.elevation_m) || std::abs(out.elevation_m) > 1e4) return wrong();
+  return out;
 }
 
-Status RunCompile(const CompileFlags& flags, Session& session) {
-  if (const std::string wrong = flags.options.Check(); !wrong.empty()) return session.Fail({ErrorCode::kBadOption, wrong});
-  if (std::error_code error; std::filesystem::equivalent(flags.plan, flags.output, error)) {
-    return session.Fail({ErrorCode::kBadOption, fmt::format("--output {}; must not be the plan itself", flags.output)});
+// Every plan that is given must be the file of a storey, so that none is passed over in silence.
+Expected<std::vector<compiler::StoreyDrawing>> StoreysOf(const CompileFlags& flags) {
+  std::vector<compiler::StoreyDrawing> out;
+  for (const std::string& text : flags.storeys) {
+    Expected<compiler::StoreyDrawing> storey = ParseStorey(text);
+    if (!storey) return tl::unexpected(storey.error());
+    out.push_back(std::move(*storey));
   }
-  const compiler::CompileResult result = CompileWithin(flags);
+  for (const std::string& plan : flags.plans) {
+    const bool used = std::any_of(out.begin(), out.end(), [&](const auto& s) { return s.path == plan; });
+    if (!used && (flags.plans.size() > 1 || !out.empty()))
+      return Fail(ErrorCode::kBadOption, fmt::format("`{}` is no storey; state --storey NAME={}@ELEVATION", plan, plan));
+  }
+  return out;
+}
+
+compiler::CompileResult CompileWithin(const CompileFlags& flags, const std::vector<compiler::StoreyDrawing>& storeys) {
+  const CompileLimits limits(flags.plan);
+  return storeys.empty() ? compiler::Compile(flags.plan, flags.options) : compiler::CompileStoreys(storeys, flags.options);
+}
+
+Status RunCompile(CompileFlags& flags, Session& session) {
+  flags.plan = flags.plans.front();
+  if (const std::string wrong = flags.options.Check(); !wrong.empty()) return session.Fail({ErrorCode::kBadOption, wrong});
+  for (const std::string& plan : flags.plans) {
+    std::error_code error;
+    if (std::filesystem::equivalent(plan, flags.output, error)) {
+      return session.Fail({ErrorCode::kBadOption, fmt::format("--output {}; must not be the plan itself", flags.output)});
+    }
+  }
+  const auto storeys = StoreysOf(flags);
+  if (!storeys) return session.Fail(storeys.error());
+  const compiler::CompileResult result = CompileWithin(flags, *storeys);
   const auto& diagnostics = result.diagnostics.all();
   Tell(flags, diagnostics, session.console);
   if (!flags.diagnostics_json.empty()) {
@@ -77,6 +115,15 @@ void AddCompileOptions(CLI::App& subcommand, compiler::CompileOptions& options) 
   subcommand.add_option("--min-room-area", options.min_room_area_m2, "smaller faces between walls are shafts, not rooms, m2");
   subcommand.add_option("--max-gap", options.max_gap_m, "walls closer than this are taken to meet where that keeps two rooms apart, m");
   subcommand.add_option("--divide-open-plans", options.divide_open_plans, "along the plan's spaces where no walls do; else one room");
+  compiler::DxfOptions& dxf = options.dxf;
+  subcommand.add_option("--unit", dxf.unit, "of a drawing: mm, cm, m, in or ft; default: as it states, if walls and doors then have usual sizes");
+  subcommand.add_option("--layers", dxf.layers, "of a drawing: aia, english, german, french, italian, spanish, none, or a TOML file")->type_name("SET|FILE");
+  subcommand.add_option("--sheet", dxf.sheet, "of a drawing with several plans side by side, from 1; 0: all, as storeys");
+  subcommand.add_option("--storey-height", dxf.drawing.heights.storey_m, "of a drawing: height of its walls, m");
+  subcommand.add_option("--door-height", dxf.drawing.heights.door_m, "of a drawing: height of its doors, m");
+  subcommand.add_option("--sill-height", dxf.drawing.heights.sill_m, "of a drawing: where its windows begin, m");
+  subcommand.add_option("--window-top", dxf.drawing.heights.window_top_m, "of a drawing: where its windows end, m");
+  subcommand.add_option("--wall-thickness", dxf.drawing.mass.single_line_thickness_m, "of a drawing: of walls drawn as single lines, m");
 }
 
 void AddCompile(CLI::App& app, Session& session) {
@@ -84,9 +131,11 @@ void AddCompile(CLI::App& app, Session& session) {
   CLI::App* sub = AddSubcommand(app, session, "compile", "Turn a floor plan into an A-Graph: rooms, wall surfaces, doorways, triangles",
                                 "  plumb compile house.ifc -o house.agraph\n"
                                 "  plumb compile house.ifc.gz -o house.agraph --diagnostics-json house.json\n"
+                                "  plumb compile a.dxf b.dxf --storey EG=a.dxf@0 --storey OG=b.dxf@3.0 -o house.agraph\n"
                                 "Status 1: the A-Graph is written, but has errors in it: in a plan without walls no robot can localize, say.\n"
                                 "Status 2: nothing is written: the file is damaged, too large, of no schema that is read, or has no building in it.");
-  sub->add_option("PLAN", flags->plan, "the plan: IFC as a STEP file, plain, gzipped or in a ZIP archive (.ifczip)")->required();
+  sub->add_option("PLAN", flags->plans, "the plan: IFC as a STEP file, or a DXF drawing; plain, gzipped or in a ZIP archive")->required();
+  sub->add_option("--storey", flags->storeys, "a drawing's storey and the height of its floor, m; once for each")->type_name("NAME=FILE@ELEVATION")->allow_extra_args(false);
   sub->add_option("-o,--output", flags->output, "the A-Graph to write")->required()->type_name("FILE.agraph");
   sub->add_option("--diagnostics-json", flags->diagnostics_json, "write what the compiler has to say about the plan as JSON")
       ->type_name("FILE");

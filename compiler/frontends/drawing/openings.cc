@@ -1,0 +1,383 @@
+#include "compiler/frontends/drawing/openings.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <set>
+
+#include "compiler/frontends/drawing/plane.h"
+
+namespace plumb::compiler {
+namespace {
+
+constexpr double kOff_m = 1e-4;
+constexpr double kAgainst = 0.96;   // cosine between sides that face each other
+constexpr double kSkewEnds = 0.87;  // ... between ends of walls: the two lines of a wall often end askew
+constexpr double kMinEnd_m = 0.03;  // narrower ends are no walls
+constexpr double kBesides_m = 0.01;  // between panels that slide past each other
+constexpr double kSillShare = 0.85;  // a window's line runs from jamb to jamb
+
+using Interval = std::pair<double, double>;
+
+struct Stroke {
+  Eigen::Vector2d a, b;
+  uint32_t path;
+};
+
+// A gap between two sides of walls, as a rectangle: `from` to `to` and half the depth to both sides.
+struct Gap {
+  DrawnOpening opening;
+  uint32_t side_a = 0, side_b = 0;
+  bool between_ends = false;
+};
+
+// What symbols say of a place.
+struct Evidence {
+  uint32_t door = kNone, swing = kNone, window = kNone, mixed = kNone;  // a path
+  double door_span = 0, window_span = 0, mixed_span = 0;  // share of the width that lines along it take
+  double mixed_line = 0;  // ... that one line takes
+  uint32_t leaf = kNone;  // a straight line as long as the gap is wide, or half of it: a leaf that stands open
+  bool sliding = false;   // panels beside each other, each about half as wide as the gap
+};
+
+class OpeningFinder {
+ public:
+  OpeningFinder(const Drawing& drawing, const std::vector<uint32_t>& symbols, const Outline& outline, const OpeningOptions& options)
+      : drawing_(drawing), symbols_(symbols), outline_(outline), options_(options), used_(drawing.paths.size(), false) {
+    std::vector<Eigen::AlignedBox2d> boxes;
+    for (const uint32_t p : symbols) {
+      const DrawnPath& path = drawing.paths[p];
+      if (path.symbol != kNone) paths_of_symbol_[path.symbol].push_back(p);
+      const size_t sides = path.points.size() < 2 ? 0 : path.points.size() - (path.closed ? 0 : 1);
+      for (size_t i = 0; i < sides; ++i) {
+        strokes_.push_back({path.points[i], path.points[(i + 1) % path.points.size()], p});
+        Eigen::AlignedBox2d box(strokes_.back().a);
+        boxes.push_back(box.extend(strokes_.back().b));
+      }
+    }
+    tree_ = BoxTree<2>(std::move(boxes));
+  }
+
+  std::vector<DrawnOpening> Run() {
+    AddGaps();
+    for (const uint32_t p : symbols_) {
+      if (!IsUsed(p)) AddFromSymbol(p);
+    }
+    return std::move(out_);
+  }
+
+ private:
+  // Across the gap in front of an end of a wall.
+  std::optional<Gap> GapBefore(uint32_t end) const {
+    const Side& s = outline_.sides()[end];
+    const double thickness = s.length_m();
+    if (s.curved || thickness < kMinEnd_m || thickness > kMaxEnd_m || !outline_.IsEnd(end)) return std::nullopt;
+    const Eigen::Vector2d out = -Perp(s.along());
+    std::optional<SideHit> first;
+    for (const double at : {0.5, 0.2, 0.8}) {
+      const auto hit = outline_.Cast(s.a + at * (s.b - s.a) + kOff_m * out, out, options_.max_window_gap_m);
+      if (hit && (!first || hit->t_m < first->t_m)) first = hit;
+    }
+    if (!first || first->t_m < options_.min_width_m) return std::nullopt;
+    const Side& t = outline_.sides()[first->side];
+    if (t.along().dot(s.along()) > -kSkewEnds) return std::nullopt;
+    Gap gap;
+    gap.side_a = end;
+    gap.side_b = first->side;
+    gap.between_ends = outline_.IsEnd(first->side);
+    // What both have in common, seen along the gap.
+    const double lo = std::max(0.0, std::min((t.a - s.a).dot(s.along()), (t.b - s.a).dot(s.along())));
+    const double hi = std::min(thickness, std::max((t.a - s.a).dot(s.along()), (t.b - s.a).dot(s.along())));
+    if (hi - lo < 0.3 * thickness) return std::nullopt;
+    gap.opening.from = s.a + 0.5 * (lo + hi) * s.along();
+    gap.opening.to = gap.opening.from + (first->t_m + kOff_m) * out;
+    gap.opening.depth_m = hi - lo;
+    return gap;
+  }
+
+  void AddGaps() {
+    std::vector<Gap> gaps;
+    for (uint32_t s = 0; s < outline_.sides().size(); ++s) {
+      if (std::optional<Gap> gap = GapBefore(s)) gaps.push_back(std::move(*gap));
+    }
+    // The shortest first: what lies across a closed gap is no gap.
+    std::stable_sort(gaps.begin(), gaps.end(), [](const Gap& a, const Gap& b) { return a.opening.width_m() < b.opening.width_m(); });
+    const auto take = [&](Gap& gap) {
+      jambs_.insert({gap.side_a, gap.side_b});
+      out_.push_back(gap.opening);
+    };
+    for (Gap& gap : gaps) {
+      if (!IsKnown(gap.opening) && Judge(gap)) take(gap);
+    }
+    for (Gap& gap : gaps) {
+      if (!IsKnown(gap.opening) && IsPassage(gap)) take(gap);
+    }
+  }
+
+  // The same place found from its other end, or a gap that another one crosses.
+  bool IsKnown(const DrawnOpening& o) const {
+    return std::any_of(out_.begin(), out_.end(), [&](const DrawnOpening& k) {
+      const Eigen::Vector2d offset = o.middle() - k.middle();
+      if (std::abs(o.along().dot(k.along())) > kAgainst)
+        return std::abs(offset.dot(k.along())) < 0.5 * std::max(o.width_m(), k.width_m()) &&
+               std::abs(Cross(k.along(), offset)) < 0.5 * (k.depth_m + o.depth_m);
+      const double side_a = Cross(k.along(), o.from - k.from), side_b = Cross(k.along(), o.to - k.from);
+      const double side_c = Cross(o.along(), k.from - o.from), side_d = Cross(o.along(), k.to - o.from);
+      return side_a * side_b < 0 && side_c * side_d < 0;
+    });
+  }
+
+  Evidence Look(const DrawnOpening& o) {
+    Evidence out;
+    const Eigen::Vector2d u = o.along(), m = o.middle();
+    const double half_u = 0.5 * o.width_m() + options_.symbol_slack_m, half_v = 0.5 * o.depth_m + options_.symbol_slack_m;
+    const double reach = std::hypot(half_u, half_v);
+    near_.clear();
+    tree_.ForEachIn({m - Eigen::Vector2d::Constant(reach), m + Eigen::Vector2d::Constant(reach)}, [&](uint32_t i) { near_.push_back(i); });
+    std::sort(near_.begin(), near_.end());
+    std::vector<Interval> door, window, mixed;
+    std::vector<double> panels;  // where they stand across the gap
+    for (const uint32_t i : near_) {
+      const Stroke& stroke = strokes_[i];
+      const Eigen::Vector2d a(u.dot(stroke.a - m), Cross(u, stroke.a - m)), b(u.dot(stroke.b - m), Cross(u, stroke.b - m));
+      if (!MeetsBox(a, b, half_u, half_v)) continue;
+      const DrawnPath& path = drawing_.paths[stroke.path];
+      const double half = 0.5 * o.width_m();
+      const bool along = std::abs(a.y() - b.y()) < 0.1 * std::abs(a.x() - b.x());
+      Interval part{std::max(-half, std::min(a.x(), b.x())), std::min(half, std::max(a.x(), b.x()))};
+      if (!along || part.second < part.first) part = {0, 0};
+      const double span = (part.second - part.first) / o.width_m();
+      const bool swing = std::any_of(path.arcs.begin(), path.arcs.end(), [&](const Arc& arc) { return IsSwing(arc, options_) && IsLeafOf(arc.radius_m / o.width_m()); });
+      const double share = (b - a).norm() / o.width_m();
+      const double from_jamb = std::min(std::abs(std::abs(a.x()) - half), std::abs(std::abs(b.x()) - half));
+      if (path.role != LineRole::kWindow && !path.curved && !along && IsLeafOf(share) && from_jamb < options_.symbol_slack_m)
+        out.leaf = std::min(out.leaf, stroke.path);
+      if (span > 0.4 && span < 0.7) panels.push_back(0.5 * (a.y() + b.y()));
+      if (swing && path.role != LineRole::kWindow) out.swing = std::min(out.swing, stroke.path);
+      if (path.role == LineRole::kDoor) out.door = std::min(out.door, stroke.path), door.push_back(part);
+      if (path.role == LineRole::kWindow) out.window = std::min(out.window, stroke.path), window.push_back(part);
+      if (path.role == LineRole::kOpening || path.role == LineRole::kAny)
+        out.mixed = std::min(out.mixed, stroke.path), mixed.push_back(part), out.mixed_line = std::max(out.mixed_line, span);
+    }
+    out.door_span = LengthOfUnion(std::move(door)) / o.width_m();
+    out.window_span = LengthOfUnion(std::move(window)) / o.width_m();
+    out.mixed_span = LengthOfUnion(std::move(mixed)) / o.width_m();
+    const auto [low, high] = std::minmax_element(panels.begin(), panels.end());
+    out.sliding = !panels.empty() && *high - *low > kBesides_m;
+    return out;
+  }
+
+  // The leaf of a door is about as long as the door is wide, or half as long where there are two.
+  static bool IsLeafOf(double share) { return (share > 0.8 && share < 1.2) || (share > 0.42 && share < 0.58); }
+
+  static double LengthOfUnion(std::vector<Interval> parts) {
+    std::sort(parts.begin(), parts.end());
+    double sum = 0, end = -std::numeric_limits<double>::infinity();
+    for (const auto& [from, to] : parts) {
+      if (to > end) sum += to - std::max(from, end), end = to;
+    }
+    return sum;
+  }
+
+  static bool MeetsBox(Eigen::Vector2d a, Eigen::Vector2d b, double half_u, double half_v) {
+    double t0 = 0, t1 = 1;
+    const Eigen::Vector2d d = b - a, half(half_u, half_v);
+    for (int k = 0; k < 2; ++k) {
+      if (std::abs(d[k]) < 1e-12) {
+        if (std::abs(a[k]) > half[k]) return false;
+        continue;
+      }
+      double lo = (-half[k] - a[k]) / d[k], hi = (half[k] - a[k]) / d[k];
+      if (lo > hi) std::swap(lo, hi);
+      t0 = std::max(t0, lo);
+      t1 = std::min(t1, hi);
+    }
+    return t0 <= t1;
+  }
+
+  // Whether symbols make the gap a door or a window, and which.
+  bool Judge(Gap& gap) {
+    DrawnOpening& o = gap.opening;
+    const double width = o.width_m();
+    const Evidence e = Look(o);
+    const auto take = [&](DrawnUse use, uint32_t path) {
+      o.use = use;
+      o.path = path;
+      o.location = drawing_.paths[path].location;
+      MarkUsed(o);
+      return true;
+    };
+    if (e.swing != kNone && width <= options_.max_swing_gap_m) return take(DrawnUse::kDoor, e.swing);
+    const double enough = options_.min_spanning_share;
+    if (e.door_span >= enough && e.door_span >= e.window_span && width <= options_.max_door_gap_m) return take(DrawnUse::kDoor, e.door);
+    if (e.window_span >= enough) return take(DrawnUse::kWindow, e.window);
+    if (e.mixed_span >= enough && e.sliding && width <= options_.max_door_gap_m) return take(DrawnUse::kDoor, e.mixed);
+    if (e.mixed_line >= kSillShare) return take(DrawnUse::kWindow, e.mixed);
+    if (e.mixed_span >= enough && width <= options_.max_door_gap_m) return take(DrawnUse::kDoor, e.mixed);
+    if (e.leaf != kNone && width <= options_.max_swing_gap_m) return take(DrawnUse::kDoor, e.leaf);
+    return false;
+  }
+
+  // A gap alone is a passage, if it is as wide as one.
+  bool IsPassage(Gap& gap) const {
+    DrawnOpening& o = gap.opening;
+    const double width = o.width_m();
+    const Side& end = outline_.sides()[gap.side_a];
+    // Between two doors a wall shows an end to the side as well, across a corridor.
+    if (jambs_.contains(end.prev) || jambs_.contains(end.next) || jambs_.contains(gap.side_a)) return false;
+    if (width > (gap.between_ends ? options_.max_bare_gap_m : options_.max_bare_end_gap_m)) return false;
+    const uint32_t source = outline_.sides()[gap.side_a].source;
+    if (source < drawing_.paths.size()) o.location = drawing_.paths[source].location;
+    return true;
+  }
+
+  // All strokes at the place, and the other paths of their symbols.
+  void MarkUsed(const DrawnOpening& o) {
+    const double reach = 0.5 * o.width_m() + options_.symbol_slack_m;
+    for (const uint32_t i : near_) {
+      if (DistanceToLine(o.middle(), strokes_[i].a, strokes_[i].b) > reach) continue;
+      used_[strokes_[i].path] = true;
+      const uint32_t symbol = drawing_.paths[strokes_[i].path].symbol;
+      if (symbol != kNone) used_symbols_.push_back(symbol);
+    }
+    std::sort(used_symbols_.begin(), used_symbols_.end());
+    used_symbols_.erase(std::unique(used_symbols_.begin(), used_symbols_.end()), used_symbols_.end());
+  }
+
+  bool IsUsed(uint32_t path) const {
+    const uint32_t symbol = drawing_.paths[path].symbol;
+    return used_[path] || (symbol != kNone && std::binary_search(used_symbols_.begin(), used_symbols_.end(), symbol));
+  }
+
+  // Where a closed leaf may stand: along both ends of a swing, or along a line.
+  std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> ClosedLeaves(const DrawnPath& path) const {
+    std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> out;
+    for (const Arc& arc : path.arcs) {
+      if (!IsSwing(arc, options_)) continue;
+      for (const double at : {arc.start_rad, arc.start_rad + arc.sweep_rad})
+        out.emplace_back(arc.center, arc.center + arc.radius_m * Eigen::Vector2d(std::cos(at), std::sin(at)));
+    }
+    if (path.arcs.empty() && !path.closed && path.points.size() == 2 && path.role == LineRole::kDoor) out.emplace_back(path.points[0], path.points[1]);
+    return out;
+  }
+
+  void AddFromSymbol(uint32_t p) {
+    const DrawnPath& path = drawing_.paths[p];
+    for (const auto& [a, b] : ClosedLeaves(path)) {
+      const double width = (b - a).norm();
+      if (width < options_.min_width_m || width > options_.max_door_gap_m) continue;
+      const double near = options_.symbol_slack_m;
+      if (outline_.DistanceTo(a, 2 * near) >= near || outline_.DistanceTo(b, 2 * near) >= near) continue;
+      std::optional<DrawnOpening> o = outline_.InWall(0.5 * (a + b)) ? OverWall(a, b) : BetweenWalls(a, b);
+      if (!o) continue;
+      o->use = DrawnUse::kDoor;
+      o->path = p;
+      o->location = path.location;
+      if (IsKnown(*o)) continue;
+      near_.clear();
+      used_[p] = true;
+      if (path.symbol != kNone) {
+        used_symbols_.insert(std::lower_bound(used_symbols_.begin(), used_symbols_.end(), path.symbol), path.symbol);
+      }
+      out_.push_back(std::move(*o));
+      return;
+    }
+    if (path.role == LineRole::kWindow || path.role == LineRole::kDoor) AddOverWall(p);
+  }
+
+  // The wall goes on behind the symbol.
+  std::optional<DrawnOpening> OverWall(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {
+    const Eigen::Vector2d u = (b - a).normalized(), n = Perp(u), m = 0.5 * (a + b);
+    const auto left = outline_.Cast(m, n, kMaxEnd_m), right = outline_.Cast(m, -n, kMaxEnd_m);
+    if (!left || !right || std::abs(outline_.sides()[left->side].along().dot(u)) < kAgainst) return std::nullopt;
+    DrawnOpening out;
+    const Eigen::Vector2d shift = 0.5 * (left->t_m - right->t_m) * n;
+    out.from = a + shift;
+    out.to = b + shift;
+    out.depth_m = left->t_m + right->t_m;
+    out.in_wall = true;
+    return out;
+  }
+
+  // A door between walls that have no ends there: across a corridor.
+  std::optional<DrawnOpening> BetweenWalls(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {
+    const Eigen::Vector2d u = (b - a).normalized(), m = 0.5 * (a + b);
+    const double reach = 0.5 * (b - a).norm() + 2 * options_.symbol_slack_m;
+    const auto ahead = outline_.Cast(m, u, reach), back = outline_.Cast(m, -u, reach);
+    if (!ahead || !back) return std::nullopt;
+    DrawnOpening out;
+    out.from = m - back->t_m * u;
+    out.to = m + ahead->t_m * u;
+    out.depth_m = std::clamp(outline_.mass().typical_thickness_m, 0.05, 0.2);
+    return out;
+  }
+
+  // A window or a door without a swing whose box lies over a wall; its paths are looked at together.
+  void AddOverWall(uint32_t p) {
+    const DrawnPath& path = drawing_.paths[p];
+    const std::vector<uint32_t> members = path.symbol == kNone ? std::vector<uint32_t>{p} : paths_of_symbol_.at(path.symbol);
+    Eigen::AlignedBox2d box;
+    Eigen::Vector2d u = Eigen::Vector2d::Zero();
+    for (const uint32_t q : members) {
+      const DrawnPath& other = drawing_.paths[q];
+      for (size_t i = 0; i + 1 < other.points.size(); ++i) {
+        const Eigen::Vector2d d = other.points[i + 1] - other.points[i];
+        if (d.norm() > u.norm()) u = d;
+      }
+    }
+    if (u.norm() < options_.min_width_m) return;
+    u.normalize();
+    for (const uint32_t q : members) {
+      for (const auto& point : drawing_.paths[q].points) box.extend(Eigen::Vector2d(u.dot(point), Cross(u, point)));
+    }
+    const Eigen::Vector2d c = box.center(), m = c.x() * u + c.y() * Perp(u);
+    const double half = 0.5 * box.sizes().x();
+    if (box.sizes().y() > kMaxEnd_m || !outline_.InWall(m)) return;
+    std::optional<DrawnOpening> o = OverWall(m - half * u, m + half * u);
+    if (!o || o->width_m() > options_.max_window_gap_m) return;
+    o->use = path.role == LineRole::kDoor ? DrawnUse::kDoor : DrawnUse::kWindow;
+    o->path = p;
+    o->location = path.location;
+    if (!IsKnown(*o)) out_.push_back(std::move(*o));
+  }
+
+  static constexpr double kMaxEnd_m = 1.0;
+
+  const Drawing& drawing_;
+  const std::vector<uint32_t>& symbols_;
+  const Outline& outline_;
+  const OpeningOptions& options_;
+  std::vector<Stroke> strokes_;
+  BoxTree<2> tree_;
+  std::map<uint32_t, std::vector<uint32_t>> paths_of_symbol_;
+  std::vector<bool> used_;
+  std::vector<uint32_t> used_symbols_, near_;
+  std::set<uint32_t> jambs_;  // sides at the ends of openings
+  std::vector<DrawnOpening> out_;
+};
+
+}  // namespace
+
+std::string OpeningOptions::Check() const {
+  if (!(min_width_m > 0)) return fmt::format("OpeningOptions.min_width_m = {}; must be positive", min_width_m);
+  if (!(max_bare_gap_m >= 0)) return fmt::format("OpeningOptions.max_bare_gap_m = {}; must not be negative", max_bare_gap_m);
+  return {};
+}
+
+bool IsSwing(const Arc& arc, const OpeningOptions& options) {
+  const double sweep = std::abs(arc.sweep_rad);
+  return sweep > std::numbers::pi / 6 && sweep < 2 * std::numbers::pi / 3 && arc.radius_m >= options.min_swing_radius_m &&
+         arc.radius_m <= options.max_swing_radius_m;
+}
+
+std::vector<DrawnOpening> FindOpenings(const Drawing& drawing, const std::vector<uint32_t>& symbols, const Outline& outline,
+                                       const OpeningOptions& options) {
+  return OpeningFinder(drawing, symbols, outline, options).Run();
+}
+
+}  // namespace plumb::compiler

@@ -1,0 +1,284 @@
+#include "compiler/frontends/drawing/plan_from_drawing.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "compiler/frontends/drawing/plane.h"
+#include "compiler/frontends/drawing/room_names.h"
+#include "compiler/frontends/drawing/wall_runs.h"
+#include "compiler/geometry/sweep.h"
+
+namespace plumb::compiler {
+namespace {
+
+constexpr double kOff_m = 1e-3;
+constexpr double kSliver_m = 0.02;          // leftovers thinner than this are rounding
+constexpr double kMinLeftover_m2 = 1e-3;
+constexpr double kSymbolDepth_m = 0.04;     // of a door leaf in its opening
+
+Solid Prism(const std::vector<Eigen::Vector2d>& ring, double bottom_m, double top_m) {
+  Solid out = Extrude({ring}, {0, 0, top_m - bottom_m});
+  for (auto& v : out.vertices) v.z() += bottom_m;
+  return out;
+}
+
+class StoreyBuilder {
+ public:
+  StoreyBuilder(const Drawing& drawing, const PlanStorey& storey, const DrawingOptions& options, PlanIr& plan, DiagnosticSink& sink)
+      : drawing_(drawing), options_(options), plan_(plan), sink_(sink), base_m_(storey.elevation_m) {
+    plan.storeys.push_back(storey);
+    storey_ = static_cast<uint32_t>(plan.storeys.size() - 1);
+    top_m_ = base_m_ + options.heights.storey_m;
+  }
+
+  bool Run() {
+    SortPaths();
+    std::optional<WallMass> mass = FindWallMass(drawing_, wall_paths_, options_.mass);
+    if (!mass) return Fail();
+    const Outline outline(*mass);
+    openings_ = FindOpenings(drawing_, symbols_, outline, options_.openings);
+    RunOptions run_options;
+    run_options.max_thickness_m = options_.mass.max_thickness_m;
+    runs_ = FindWallRuns(outline, openings_, run_options);
+    for (WallRun& run : runs_) AddWall(run);
+    if (!AddLeftovers(outline)) return Fail();
+    Report(*mass);
+    return true;
+  }
+
+ private:
+  bool Fail() {
+    sink_.Emit(DiagnosticKind::kPlanTooComplex, {}, fmt::format("the drawing's lines cross more than {} times", options_.mass.max_vertices));
+    return false;
+  }
+
+  // Leaves and swings of doors drawn among the walls are no walls.
+  void SortPaths() {
+    std::vector<const Arc*> swings;
+    for (const DrawnPath& path : drawing_.paths) {
+      for (const Arc& arc : path.arcs) {
+        if (path.role == LineRole::kAny && IsSwing(arc, options_.openings)) swings.push_back(&arc);
+      }
+    }
+    std::vector<Eigen::AlignedBox2d> hinges;
+    for (const Arc* arc : swings) hinges.emplace_back(arc->center);
+    const BoxTree<2> tree(std::move(hinges));
+    for (uint32_t p = 0; p < drawing_.paths.size(); ++p) {
+      const DrawnPath& path = drawing_.paths[p];
+      const bool wall = path.role == LineRole::kWall || path.role == LineRole::kColumn;
+      const bool swing = std::any_of(path.arcs.begin(), path.arcs.end(), [&](const Arc& a) { return IsSwing(a, options_.openings); });
+      if (wall || (path.role == LineRole::kAny && !swing && !IsLeaf(path, swings, tree))) wall_paths_.push_back(p);
+      else symbols_.push_back(p);
+    }
+  }
+
+  // A line or a thin box from the hinge, as long as the swing's radius.
+  static bool IsLeaf(const DrawnPath& path, const std::vector<const Arc*>& swings, const BoxTree<2>& tree) {
+    if (path.points.size() < 2 || path.points.size() > 5) return false;
+    const Eigen::AlignedBox2d box = BoxOf(path.points);
+    const double length = (path.points[1] - path.points[0]).norm(), longest = std::max(length, path.points.size() > 2 ? (path.points[2] - path.points[1]).norm() : 0);
+    const double width = path.points.size() == 2 ? 0 : LesserSide(path.points);
+    bool leaf = false;
+    const Eigen::Vector2d reach = Eigen::Vector2d::Constant(0.08);
+    tree.ForEachIn({box.min() - reach, box.max() + reach}, [&](uint32_t i) {
+      const double r = swings[i]->radius_m;
+      if (std::abs(longest - r) > 0.08 * r || width > 0.1 * r) return;
+      for (const auto& p : path.points) leaf = leaf || (p - swings[i]->center).norm() < 0.1 * r;
+    });
+    return leaf;
+  }
+
+  const SourceLocation& LocationOf(uint32_t path) const {
+    static const SourceLocation nowhere;
+    return path < drawing_.paths.size() ? drawing_.paths[path].location : nowhere;
+  }
+
+  // Source ids are unique in the plan: the second wall of one polyline has "2F#2".
+  std::string UniqueGuid(const SourceLocation& at) {
+    if (at.guid.empty()) return {};
+    const int number = ++guids_[at.guid];
+    return number == 1 ? at.guid : fmt::format("{}#{}", at.guid, number);
+  }
+
+  PlanElement NewElement(ElementKind kind, const SourceLocation& location) {
+    PlanElement out;
+    out.kind = kind;
+    out.location = location;
+    out.type = location.type;
+    out.guid = UniqueGuid(location);
+    out.storey = storey_;
+    return out;
+  }
+
+  std::vector<Eigen::Vector2d> Part(const WallRun& run, double from_m, double to_m) const {
+    return {run.At(from_m, run.right_m), run.At(to_m, run.right_m), run.At(to_m, run.left_m), run.At(from_m, run.left_m)};
+  }
+
+  void AddWall(WallRun& run) {
+    PlanElement wall = NewElement(ElementKind::kWall, LocationOf(run.source));
+    wall.uncut = Prism(run.Corners(), base_m_, top_m_);
+    wall.thickness_m = run.thickness_m();
+    const double middle = 0.5 * (run.left_m + run.right_m);
+    wall.axis = std::make_pair(run.At(run.start_m, middle), run.At(run.end_m, middle));
+    std::sort(run.openings.begin(), run.openings.end(),
+              [&](uint32_t a, uint32_t b) { return run.S(openings_[a].middle()) < run.S(openings_[b].middle()); });
+    double at = run.start_m;
+    for (const uint32_t o : run.openings) {
+      const auto [from, to] = Extent(run, o);
+      if (from > at + kOff_m) AppendSolid(Prism(Part(run, at, from), base_m_, top_m_), wall.body);
+      const auto [sill, head] = HeightsOf(openings_[o].use);
+      if (head < top_m_) AppendSolid(Prism(Part(run, std::max(at, from), to), head, top_m_), wall.body);
+      if (sill > base_m_) AppendSolid(Prism(Part(run, std::max(at, from), to), base_m_, sill), wall.body);
+      at = std::max(at, to);
+    }
+    if (run.end_m > at + kOff_m) AppendSolid(Prism(Part(run, at, run.end_m), base_m_, top_m_), wall.body);
+    plan_.elements.push_back(std::move(wall));
+    const auto index = static_cast<uint32_t>(plan_.elements.size() - 1);
+    for (const uint32_t o : run.openings) AddOpening(run, o, index);
+  }
+
+  std::pair<double, double> Extent(const WallRun& run, uint32_t o) const {
+    const auto [from, to] = std::minmax({run.S(openings_[o].from), run.S(openings_[o].to)});
+    return {std::clamp(from, run.start_m, run.end_m), std::clamp(to, run.start_m, run.end_m)};
+  }
+
+  std::pair<double, double> HeightsOf(DrawnUse use) const {
+    const HeightOptions& h = options_.heights;
+    if (use == DrawnUse::kWindow) return {base_m_ + h.sill_m, base_m_ + h.window_top_m};
+    return {base_m_, base_m_ + h.door_m};
+  }
+
+  void AddOpening(const WallRun& run, uint32_t o, uint32_t wall) {
+    const DrawnOpening& drawn = openings_[o];
+    const auto [from, to] = Extent(run, o);
+    if (to - from < kOff_m) return;
+    const auto [sill, head] = HeightsOf(drawn.use);
+    PlanOpening opening;
+    opening.location = drawn.location;
+    opening.wall = wall;
+    opening.width_m = to - from;
+    opening.height_m = head - sill;
+    opening.body = Prism(Part(run, from, to), sill, head);
+    if (drawn.use != DrawnUse::kPassage) {
+      PlanElement filling = NewElement(drawn.use == DrawnUse::kDoor ? ElementKind::kDoor : ElementKind::kWindow, drawn.location);
+      if (drawn.use == DrawnUse::kWindow) {
+        filling.material = Material::kGlass;
+        const double middle = 0.5 * (run.left_m + run.right_m), half = 0.5 * kSymbolDepth_m;
+        filling.body = Prism({run.At(from, middle - half), run.At(to, middle - half), run.At(to, middle + half), run.At(from, middle + half)}, sill, head);
+      }
+      opening.filling = static_cast<uint32_t>(plan_.elements.size());
+      plan_.elements.push_back(std::move(filling));
+    } else {
+      opening.guid = UniqueGuid(drawn.location);
+    }
+    plan_.openings.push_back(std::move(opening));
+  }
+
+  // What no run covers of the walls, and the free faces that texts lie in.
+  bool AddLeftovers(const Outline& outline) {
+    std::vector<MapLine> lines;
+    for (const Side& s : outline.sides()) lines.push_back({s.a, s.b, s.source});
+    std::vector<Eigen::AlignedBox2d> boxes;
+    for (const WallRun& run : runs_) {
+      const auto corners = run.Corners();
+      for (size_t k = 0; k < 4; ++k) lines.push_back({corners[k], corners[(k + 1) % 4], run.source});
+      boxes.push_back(BoxOf(corners));
+    }
+    const std::optional<LineMap> map = LineMap::Build(lines, options_.mass.join_m, options_.mass.max_vertices);
+    if (!map) return false;
+    const BoxTree<2> tree(std::move(boxes));
+    std::vector<bool> solid(map->num_faces(), false);
+    for (uint32_t f = 1; f < map->num_faces(); ++f) {
+      const std::optional<Eigen::Vector2d> p = map->PointIn(f);
+      if (!p) continue;
+      bool in_run = false;
+      tree.ForEachIn(Eigen::AlignedBox2d(*p), [&](uint32_t r) { in_run = in_run || runs_[r].Holds(*p, 0); });
+      solid[f] = in_run || outline.InWall(*p);
+      if (solid[f] && !in_run) AddLeftover(*map, f);
+    }
+    NameFaces(*map, solid);
+    return true;
+  }
+
+  void AddLeftover(const LineMap& map, uint32_t face) {
+    const auto ring = map.RingAt(map.LoopsOf(face)[0]);
+    if (map.AreaOf(face) < kMinLeftover_m2 || LesserSide(ring) < kSliver_m) return;
+    Area area;
+    for (const uint32_t loop : map.LoopsOf(face)) area.push_back(map.RingAt(loop));
+    const uint32_t source = map.edges()[map.LoopsOf(face)[0] / 2].source;
+    PlanElement wall = NewElement(ElementKind::kWall, LocationOf(source));
+    wall.uncut = Extrude(area, {0, 0, top_m_ - base_m_});
+    for (auto& v : wall.uncut.vertices) v.z() += base_m_;
+    wall.body = wall.uncut;
+    if (source < drawing_.paths.size()) wall.arcs = drawing_.paths[source].arcs;
+    if (!wall.uncut.empty()) plan_.elements.push_back(std::move(wall));
+  }
+
+  void NameFaces(const LineMap& map, const std::vector<bool>& solid) {
+    std::map<uint32_t, std::vector<const DrawnText*>> by_face;
+    for (const DrawnText& text : drawing_.texts) {
+      const uint32_t face = map.FaceAt(text.at);
+      if (face != 0 && !solid[face]) by_face[face].push_back(&text);
+    }
+    for (const auto& [face, texts] : by_face) {
+      PlanSpace space;
+      space.name = RoomName(texts);
+      if (space.name.empty()) continue;
+      space.location = texts[0]->location;
+      space.guid = UniqueGuid(space.location);
+      space.storey = storey_;
+      Area area;
+      for (const uint32_t loop : map.LoopsOf(face)) area.push_back(map.RingAt(loop));
+      space.body = Extrude(area, {0, 0, top_m_ - base_m_});
+      for (auto& v : space.body.vertices) v.z() += base_m_;
+      plan_.spaces.push_back(std::move(space));
+    }
+  }
+
+  void Report(const WallMass& mass) {
+    const MassOptions& o = options_.mass;
+    if (mass.single_lines) {
+      sink_.Emit(DiagnosticKind::kSingleLineWalls, {},
+                 fmt::format("the walls are drawn as single lines, {:.0f} m of them; each is taken as a wall {:.2f} m thick", mass.single_m, o.single_line_thickness_m));
+    } else if (mass.single_m > o.min_single_m) {
+      sink_.Emit(DiagnosticKind::kLinesWithoutPartner, {},
+                 fmt::format("{:.1f} m of lines have no parallel partner within {:.2f} m and are taken for no walls", mass.single_m, o.max_thickness_m));
+    }
+  }
+
+  const Drawing& drawing_;
+  const DrawingOptions& options_;
+  PlanIr& plan_;
+  DiagnosticSink& sink_;
+  double base_m_, top_m_;
+  uint32_t storey_ = 0;
+  std::vector<uint32_t> wall_paths_, symbols_;
+  std::vector<DrawnOpening> openings_;
+  std::vector<WallRun> runs_;
+  std::map<std::string, int> guids_;
+};
+
+}  // namespace
+
+std::string HeightOptions::Check() const {
+  if (!(storey_m > 1.2 && storey_m < 50)) return fmt::format("HeightOptions.storey_m = {}; must be in (1.2, 50)", storey_m);
+  if (!(door_m > 1.2 && door_m <= storey_m)) return fmt::format("HeightOptions.door_m = {}; must be in (1.2, storey_m]", door_m);
+  if (!(sill_m > 0 && sill_m < window_top_m && window_top_m <= storey_m))
+    return fmt::format("HeightOptions.sill_m = {}, window_top_m = {}; must be 0 < sill_m < window_top_m <= storey_m", sill_m, window_top_m);
+  return {};
+}
+
+std::string DrawingOptions::Check() const {
+  for (const std::string& fault : {mass.Check(), openings.Check(), heights.Check()}) {
+    if (!fault.empty()) return fault;
+  }
+  return {};
+}
+
+bool AppendStorey(const Drawing& drawing, const PlanStorey& storey, const DrawingOptions& options, PlanIr& plan, DiagnosticSink& sink) {
+  return StoreyBuilder(drawing, storey, options, plan, sink).Run();
+}
+
+}  // namespace plumb::compiler

@@ -1,0 +1,302 @@
+#include "compiler/frontends/drawing/wall_mass.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "compiler/frontends/drawing/plane.h"
+
+namespace plumb::compiler {
+namespace {
+
+constexpr uint32_t kClosing = 0xfffffffeu;  // source of a line that the drawing does not have
+constexpr uint32_t kSingle = 0xfffffffdu;   // of the outline of a wall drawn as one line
+constexpr double kParallel = 0.97, kSquare = 0.35, kBeside = 0.05;
+constexpr double kOff_m = 1e-4;  // from a line into the face beside it
+
+struct WeightedLength {
+  double value_m, weight_m;
+};
+
+// The value that half of the weight lies below.
+double WeightedMedian(std::vector<WeightedLength> values) {
+  if (values.empty()) return 0;
+  std::sort(values.begin(), values.end(), [](const auto& a, const auto& b) { return a.value_m < b.value_m; });
+  double total = 0, sum = 0;
+  for (const auto& v : values) total += v.weight_m;
+  for (const auto& v : values) {
+    sum += v.weight_m;
+    if (2 * sum >= total) return v.value_m;
+  }
+  return values.back().value_m;
+}
+
+class MassFinder {
+ public:
+  MassFinder(const Drawing& drawing, const std::vector<uint32_t>& paths, const MassOptions& options)
+      : drawing_(drawing), paths_(paths), options_(options) {}
+
+  std::optional<WallMass> Run() {
+    CollectLines();
+    if (!Build()) return std::nullopt;
+    if (const size_t before = lines_.size(); AddClosings(), lines_.size() > before && !Build()) return std::nullopt;
+    Classify();
+    if (out_.single_lines) {
+      const double single_m = out_.single_m;
+      AddSingleLines();
+      if (!Build()) return std::nullopt;
+      Classify();
+      out_.single_lines = true;
+      out_.single_m = single_m;
+    }
+    for (const LineMap::Edge& e : Map().edges()) out_.is_curved.push_back(e.source < drawing_.paths.size() && drawing_.paths[e.source].curved);
+    return std::move(out_);
+  }
+
+ private:
+  const LineMap& Map() const { return out_.map; }
+
+  void CollectLines() {
+    for (const uint32_t p : paths_) {
+      const DrawnPath& path = drawing_.paths[p];
+      for (size_t i = 0; i + 1 < path.points.size(); ++i) lines_.push_back({path.points[i], path.points[i + 1], p});
+      if (path.closed && path.points.size() > 2) lines_.push_back({path.points.back(), path.points.front(), p});
+      if (path.filled && path.closed && path.points.size() > 2 && path.role != LineRole::kAny) fills_.push_back(path.points);
+    }
+  }
+
+  bool Build() {
+    std::optional<LineMap> map = LineMap::Build(lines_, options_.join_m, options_.max_vertices);
+    if (map) out_.map = std::move(*map);
+    return map.has_value();
+  }
+
+  struct LooseEnd {
+    uint32_t vertex;
+    Eigen::Vector2d at, out;  // the line's direction as it leaves
+    double length_m;
+    bool used = false;
+  };
+
+  std::vector<LooseEnd> LooseEnds() const {
+    std::vector<LooseEnd> ends;
+    for (uint32_t h = 0; h < Map().num_half_edges(); ++h) {
+      if (Map().DegreeOf(Map().To(h)) != 1) continue;
+      const Eigen::Vector2d d = Map().ToPoint(h) - Map().FromPoint(h);
+      ends.push_back({Map().To(h), Map().ToPoint(h), d.normalized(), d.norm()});
+    }
+    return ends;
+  }
+
+  void AddLine(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { lines_.push_back({a, b, kClosing}); }
+
+  // The nearest other end that `fits`, for which this one is the nearest as well.
+  template <class Fits>
+  void JoinNearest(std::vector<LooseEnd>& ends, double reach_m, const Fits& fits) {
+    std::vector<Eigen::AlignedBox2d> boxes;
+    for (const LooseEnd& e : ends) boxes.emplace_back(e.at);
+    const BoxTree<2> tree(std::move(boxes));
+    std::vector<uint32_t> nearest(ends.size(), kNone);
+    for (uint32_t i = 0; i < ends.size(); ++i) {
+      if (ends[i].used) continue;
+      const Eigen::Vector2d reach = Eigen::Vector2d::Constant(reach_m);
+      double best_m = reach_m;
+      tree.ForEachIn({ends[i].at - reach, ends[i].at + reach}, [&](uint32_t j) {
+        if (j == i || ends[j].used || !fits(ends[i], ends[j])) return;
+        const double distance = (ends[j].at - ends[i].at).norm();
+        if (distance < best_m || (distance == best_m && j < nearest[i])) best_m = distance, nearest[i] = j;
+      });
+    }
+    for (uint32_t i = 0; i < ends.size(); ++i) {
+      const uint32_t j = nearest[i];
+      if (j == kNone || j < i || nearest[j] != i || ends[i].used || ends[j].used) continue;
+      ends[i].used = ends[j].used = true;
+      AddLine(ends[i].at, ends[j].at);
+    }
+  }
+
+  void AddClosings() {
+    std::vector<LooseEnd> ends = LooseEnds();
+    ExtendToLines(ends);
+    JoinNearest(ends, options_.max_thickness_m, [&](const LooseEnd& a, const LooseEnd& b) {
+      const Eigen::Vector2d d = b.at - a.at;
+      return a.out.dot(b.out) > kParallel && std::abs(d.dot(a.out)) <= kSquare * d.norm() && std::min(a.length_m, b.length_m) > 0.5 * d.norm();
+    });
+    CapAtCorners(ends);
+    JoinNearest(ends, options_.max_break_m, [](const LooseEnd&, const LooseEnd&) { return true; });
+  }
+
+  // The other line of the wall ends beside this one as well, but another wall goes on from there.
+  void CapAtCorners(std::vector<LooseEnd>& ends) {
+    const Eigen::Vector2d reach = Eigen::Vector2d::Constant(options_.max_thickness_m);
+    for (LooseEnd& e : ends) {
+      if (e.used) continue;
+      std::pair<double, uint32_t> best(options_.max_thickness_m, kNone);
+      Map().VisitEdges({e.at - reach, e.at + reach}, [&](uint32_t edge) {
+        for (const uint32_t h : {2 * edge, 2 * edge + 1}) {
+          const Eigen::Vector2d d = Map().ToPoint(h) - e.at, line = Map().ToPoint(h) - Map().FromPoint(h);
+          const bool beside = d.norm() > options_.min_thickness_m && std::abs(d.dot(e.out)) <= kBeside * d.norm();
+          if (!beside || Map().To(h) == e.vertex || line.dot(e.out) < kParallel * line.norm() || GoesOn(h)) continue;
+          best = std::min(best, {d.norm(), Map().To(h)});
+        }
+      });
+      if (best.second == kNone || e.length_m < 0.5 * best.first) continue;
+      e.used = true;
+      AddLine(e.at, Map().vertices()[best.second]);
+    }
+  }
+
+  // Straight on, in another edge of the line.
+  bool GoesOn(uint32_t half_edge) const {
+    const Eigen::Vector2d d = (Map().ToPoint(half_edge) - Map().FromPoint(half_edge)).normalized();
+    for (uint32_t h = Map().Next(half_edge); h != (half_edge ^ 1u); h = Map().Next(h ^ 1u)) {
+      if ((Map().ToPoint(h) - Map().FromPoint(h)).normalized().dot(d) > kParallel) return true;
+    }
+    return false;
+  }
+
+  void ExtendToLines(std::vector<LooseEnd>& ends) {
+    for (LooseEnd& e : ends) {
+      const double reach = std::min(options_.max_undershoot_m, 0.5 * e.length_m);
+      const auto other = [&](uint32_t edge) { return Map().edges()[edge].a != e.vertex && Map().edges()[edge].b != e.vertex; };
+      const std::optional<RayHit> hit = Map().Cast(e.at, e.out, reach, other);
+      if (!hit) continue;
+      e.used = true;
+      AddLine(e.at, e.at + (hit->t_m + options_.join_m) * e.out);
+    }
+  }
+
+  // How far the other side of the face is across from points of its boundary.
+  std::vector<std::vector<WeightedLength>> MeasureFaces() const {
+    std::vector<std::vector<WeightedLength>> out(Map().num_faces());
+    const double far_m = 2 * options_.max_thickness_m;
+    for (uint32_t h = 0; h < Map().num_half_edges(); ++h) {
+      const uint32_t face = Map().FaceOf(h);
+      if (face == 0 || Map().FaceOf(h ^ 1u) == face) continue;
+      const Eigen::Vector2d a = Map().FromPoint(h), d = Map().ToPoint(h) - a, n = Perp(d).normalized();
+      const auto other = [&](uint32_t e) { return e != h / 2; };
+      for (const double at : {1.0 / 6, 0.5, 5.0 / 6}) {
+        const std::optional<RayHit> hit = Map().Cast(a + at * d + kOff_m * n, n, far_m, other);
+        out[face].push_back({hit ? hit->t_m : far_m, d.norm() / 3});
+      }
+    }
+    return out;
+  }
+
+  void Classify() {
+    const auto widths = MeasureFaces();
+    std::vector<double> median(Map().num_faces(), 0);
+    std::vector<WeightedLength> typical;
+    for (uint32_t f = 1; f < Map().num_faces(); ++f) {
+      median[f] = WeightedMedian(widths[f]);
+      if (median[f] < options_.min_thickness_m || median[f] > options_.max_thickness_m) continue;
+      for (const auto& w : widths[f]) typical.push_back({median[f], w.weight_m});
+    }
+    out_.typical_thickness_m = WeightedMedian(typical);
+    const double limit = std::min(options_.max_thickness_m, std::max(0.3, 2 * out_.typical_thickness_m));
+    out_.is_wall.assign(Map().num_faces(), false);
+    for (uint32_t f = 1; f < Map().num_faces(); ++f) out_.is_wall[f] = median[f] > 0 && median[f] <= limit;
+    MarkFilled();
+    MarkPiers();
+    CountSingleLines();
+  }
+
+  void MarkFilled() {
+    std::vector<Eigen::AlignedBox2d> boxes;
+    for (const auto& ring : fills_) boxes.push_back(BoxOf(ring));
+    const BoxTree<2> tree(std::move(boxes));
+    for (uint32_t f = 1; f < Map().num_faces() && !fills_.empty(); ++f) {
+      const std::optional<Eigen::Vector2d> p = Map().PointIn(f);
+      if (!p) continue;
+      tree.ForEachIn(Eigen::AlignedBox2d(*p), [&](uint32_t i) {
+        if (Contains(fills_[i], *p)) out_.is_wall[f] = true;
+      });
+    }
+  }
+
+  // Outlines with free space around them; the outline of a room has walls around it.
+  void MarkPiers() {
+    for (uint32_t f = 1; f < Map().num_faces(); ++f) {
+      if (!out_.is_wall[f] && Map().LoopsOf(f).size() == 1 && IsPier(f)) out_.is_wall[f] = true;
+    }
+  }
+
+  bool IsPier(uint32_t face) const {
+    const uint32_t start = Map().LoopsOf(face)[0], source = Map().edges()[start / 2].source;
+    double free_m = 0, length_m = 0;
+    bool one_outline = source < drawing_.paths.size() && drawing_.paths[source].closed;
+    uint32_t h = start;
+    do {
+      const LineMap::Edge& edge = Map().edges()[h / 2];
+      if (edge.source < drawing_.paths.size() && drawing_.paths[edge.source].role == LineRole::kAny) return false;
+      const double length = (Map().ToPoint(h) - Map().FromPoint(h)).norm();
+      one_outline = one_outline && edge.source == source;
+      length_m += length;
+      if (!out_.is_wall[Map().FaceOf(h ^ 1u)]) free_m += length;
+      h = Map().Next(h);
+    } while (h != start);
+    return 2 * free_m > length_m && LesserSide(Map().RingAt(start)) <= (one_outline ? options_.max_pier_m : options_.max_loose_pier_m);
+  }
+
+  bool IsSingle(uint32_t e) const {
+    const uint32_t source = Map().edges()[e].source;
+    return source < drawing_.paths.size() && !out_.is_wall[Map().FaceOf(2 * e)] && !out_.is_wall[Map().FaceOf(2 * e + 1)];
+  }
+
+  void CountSingleLines() {
+    double bounding_m = 0;
+    out_.single_m = 0;
+    for (uint32_t e = 0; e < Map().edges().size(); ++e) {
+      const double length = (Map().ToPoint(2 * e) - Map().FromPoint(2 * e)).norm();
+      if (IsSingle(e)) out_.single_m += length;
+      else bounding_m += length;
+    }
+    out_.single_lines = out_.single_m > 0 && bounding_m <= options_.max_double_share * (bounding_m + out_.single_m);
+  }
+
+  // Each as a box around the line, half a thickness longer at both ends so that corners close.
+  void AddSingleLines() {
+    std::vector<MapLine> singles;
+    for (uint32_t e = 0; e < Map().edges().size(); ++e) {
+      if (IsSingle(e)) singles.push_back({Map().FromPoint(2 * e), Map().ToPoint(2 * e), Map().edges()[e].source});
+    }
+    lines_.clear();
+    for (uint32_t e = 0; e < Map().edges().size(); ++e) {
+      if (!IsSingle(e)) lines_.push_back({Map().FromPoint(2 * e), Map().ToPoint(2 * e), Map().edges()[e].source});
+    }
+    for (const MapLine& s : MergeCollinear(std::move(singles), options_.join_m)) {
+      const Eigen::Vector2d d = s.b - s.a;
+      if (d.norm() < options_.min_single_m) continue;
+      const Eigen::Vector2d along = 0.5 * options_.single_line_thickness_m * d.normalized(), side = Perp(along);
+      std::vector<Eigen::Vector2d> box = {s.a - along - side, s.b + along - side, s.b + along + side, s.a - along + side};
+      for (size_t k = 0; k < 4; ++k) lines_.push_back({box[k], box[(k + 1) % 4], kSingle});
+      fills_.push_back(std::move(box));
+    }
+  }
+
+  const Drawing& drawing_;
+  const std::vector<uint32_t>& paths_;
+  const MassOptions& options_;
+  std::vector<MapLine> lines_;
+  std::vector<std::vector<Eigen::Vector2d>> fills_;
+  WallMass out_;
+};
+
+}  // namespace
+
+std::string MassOptions::Check() const {
+  if (!(join_m > 0 && join_m < 0.05)) return fmt::format("MassOptions.join_m = {}; must be in (0, 0.05)", join_m);
+  if (!(max_thickness_m > 0.1 && max_thickness_m < 3)) return fmt::format("MassOptions.max_thickness_m = {}; must be in (0.1, 3)", max_thickness_m);
+  if (!(single_line_thickness_m > 0.01 && single_line_thickness_m < 1))
+    return fmt::format("MassOptions.single_line_thickness_m = {}; must be in (0.01, 1)", single_line_thickness_m);
+  return {};
+}
+
+std::optional<WallMass> FindWallMass(const Drawing& drawing, const std::vector<uint32_t>& paths, const MassOptions& options) {
+  return MassFinder(drawing, paths, options).Run();
+}
+
+}  // namespace plumb::compiler

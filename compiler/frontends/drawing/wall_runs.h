@@ -1,0 +1,35 @@
+// Walls one by one: straight runs of constant thickness in the material of all walls, and what is left beside them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "compiler/frontends/drawing/openings.h"
+#include "compiler/frontends/drawing/outline.h"
+
+namespace plumb::compiler {
+
+// A rectangle: `along` from start_m to end_m, its left normal from right_m to left_m.
+struct WallRun {
+  Eigen::Vector2d along = Eigen::Vector2d::UnitX();
+  double start_m = 0, end_m = 0, right_m = 0, left_m = 0;
+  uint32_t source = 0xffffffffu;  // a path that one of its sides is drawn by
+  std::vector<uint32_t> openings;
+  [[nodiscard]] Eigen::Vector2d At(double s, double t) const { return s * along + t * Eigen::Vector2d(-along.y(), along.x()); }
+  [[nodiscard]] double S(const Eigen::Vector2d& p) const { return along.dot(p); }
+  [[nodiscard]] double T(const Eigen::Vector2d& p) const { return along.x() * p.y() - along.y() * p.x(); }
+  [[nodiscard]] double thickness_m() const { return left_m - right_m; }
+  [[nodiscard]] bool Holds(const Eigen::Vector2d& p, double slack_m) const;
+  [[nodiscard]] std::vector<Eigen::Vector2d> Corners() const;  // counter-clockwise
+};
+
+struct RunOptions {
+  double max_offset_m = 0.015;  // between the sides of two pieces of one wall
+  double min_length_share = 0.9;  // of a piece's thickness; shorter ones are no runs
+  double max_thickness_m = 0.65;
+};
+
+// Every opening is in exactly one run: a gap's wall goes on over the gap, and a gap that no wall goes on over gets a run of its own.
+[[nodiscard]] std::vector<WallRun> FindWallRuns(const Outline& outline, const std::vector<DrawnOpening>& openings, const RunOptions& options);
+
+}  // namespace plumb::compiler

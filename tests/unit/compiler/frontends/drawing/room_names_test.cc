@@ -1,0 +1,42 @@
+#include "compiler/frontends/drawing/room_names.h"
+
+#include <gtest/gtest.h>
+
+namespace plumb::compiler {
+namespace {
+
+DrawnText At(double y, const std::string& text, double height = 0.2) {
+  DrawnText out;
+  out.text = text;
+  out.at = {0, y};
+  out.height_m = height;
+  return out;
+}
+
+std::string NameOf(const std::vector<DrawnText>& texts) {
+  std::vector<const DrawnText*> pointers;
+  for (const DrawnText& t : texts) pointers.push_back(&t);
+  return RoomName(pointers);
+}
+
+TEST(RoomNames, NumberAndNameAreJoinedFromTopToBottom) { EXPECT_EQ(NameOf({At(1, "Office"), At(2, "101")}), "101 Office"); }
+
+TEST(RoomNames, MeasuresAreNoNames) {
+  EXPECT_EQ(NameOf({At(3, "Kitchen"), At(2, "3.25 x 4.10"), At(1, "13.3 m2"), At(0, "12'-6\"")}), "Kitchen");
+  EXPECT_EQ(NameOf({At(2, "+0.00")}), "");
+}
+
+TEST(RoomNames, SizesOfDoorsAreNoNames) { EXPECT_EQ(NameOf({At(3, "BATH"), At(2, "2668"), At(1, "2468")}), "BATH"); }
+
+TEST(RoomNames, StatedAndUnderlinedNamesGoFirst) {
+  std::vector<DrawnText> texts = {At(3, "STUDS @ OC"), At(2, "GARAGE")};
+  texts[1].underlined = true;
+  EXPECT_EQ(NameOf(texts), "GARAGE");
+  texts[0].names_room = true;
+  EXPECT_EQ(NameOf(texts), "STUDS @ OC");
+}
+
+TEST(RoomNames, SmallPrintIsLeftOut) { EXPECT_EQ(NameOf({At(2, "Store", 0.3), At(1, "shelves", 0.1)}), "Store"); }
+
+}  // namespace
+}  // namespace plumb::compiler

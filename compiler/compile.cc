@@ -14,6 +14,7 @@
 
 #include "compiler/emit/emit.h"
 #include "compiler/frontends/ifc/ifc_frontend.h"
+#include "compiler/frontends/mesh/mesh_frontend.h"
 #include "compiler/passes/alias_forecast.h"
 #include "compiler/passes/build_agraph.h"
 #include "compiler/source/source.h"
@@ -35,16 +36,29 @@ PassOptions PassOptionsFrom(const CompileOptions& options) {
 
 // As they stand in the file: what the result depends on.
 std::vector<Option> Recorded(const CompileOptions& options) {
-  return {{"section_height_m", fmt::format("{}", options.section_height_m)},
+  std::vector<Option> out = {{"section_height_m", fmt::format("{}", options.section_height_m)},
           {"snap_radius_m", fmt::format("{}", options.snap_radius_m)},
           {"max_gap_m", fmt::format("{}", options.max_gap_m)},
           {"divide_open_plans", options.divide_open_plans ? "true" : "false"},
           {"min_room_area_m2", fmt::format("{}", options.min_room_area_m2)}};
+  if (!options.unit.empty()) out.push_back({"unit", options.unit});
+  if (!options.up.empty()) out.push_back({"up", options.up});
+  return out;
 }
 
-std::optional<PlanIr> ReadPlan(const std::string& path, DiagnosticSink& sink) {
+MeshOptions MeshOptionsFrom(const CompileOptions& options) {
+  MeshOptions out;
+  out.unit = options.unit;
+  out.up = options.up;
+  out.section_height_m = options.section_height_m;
+  out.model_path = options.model_path;
+  return out;
+}
+
+std::optional<PlanIr> ReadPlan(const std::string& path, const CompileOptions& options, DiagnosticSink& sink) {
   const std::optional<Source> source = LoadSource(path, sink);
   if (!source || !IsSupported(*source, sink)) return std::nullopt;
+  if (IsMesh(source->format)) return ReadMesh(*source, sink, MeshOptionsFrom(options));
   return ReadIfc(*source, sink);
 }
 
@@ -75,7 +89,7 @@ void AddLocated(const PlanIr& plan, const std::vector<Diagnostic>& found, Diagno
 }
 
 std::optional<AGraph> Run(const std::string& path, const CompileOptions& options, DiagnosticSink& sink) {
-  std::optional<PlanIr> plan = ReadPlan(path, sink);
+  std::optional<PlanIr> plan = ReadPlan(path, options, sink);
   if (!plan) return std::nullopt;
   std::optional<Built> built = BuildAGraph(*plan, PassOptionsFrom(options), sink);
   if (!built) return std::nullopt;
@@ -97,6 +111,7 @@ std::string CompileOptions::Check() const {
   if (!(snap_radius_m > 0 && snap_radius_m <= 0.05))
     return fmt::format("CompileOptions.snap_radius_m = {}; must be in (0, 0.05]", snap_radius_m);
   if (!(max_gap_m >= 0 && max_gap_m <= 0.5)) return fmt::format("CompileOptions.max_gap_m = {}; must be in [0, 0.5]", max_gap_m);
+  if (const std::string wrong = MeshOptionsFrom(*this).Check(); !wrong.empty()) return wrong;
   if (!(min_room_area_m2 >= 0)) return fmt::format("CompileOptions.min_room_area_m2 = {}; must not be negative", min_room_area_m2);
   return {};
 }

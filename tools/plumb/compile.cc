@@ -72,6 +72,9 @@ void AddCompileOptions(CLI::App& subcommand, compiler::CompileOptions& options) 
   subcommand.add_option("--snap-radius", options.snap_radius_m, "corners of walls closer than this become one, m");
   subcommand.add_option("--min-room-area", options.min_room_area_m2, "smaller faces between walls are shafts, not rooms, m2");
   subcommand.add_option("--max-gap", options.max_gap_m, "walls closer than this are taken to meet where that keeps two rooms apart, m");
+  subcommand.add_option("--unit", options.unit, "of meshes: m, cm, mm, in or ft; else as stated by the file or seen in its walls");
+  subcommand.add_option("--up", options.up, "of meshes: x, y or z; else as stated by the file or seen in its walls");
+  subcommand.add_option("--model-path", options.model_path, "of Gazebo worlds: folders besides the world's own that hold included models");
   subcommand.add_option("--divide-open-plans", options.divide_open_plans, "along the plan's spaces where no walls do; else one room");
 }
 
@@ -82,7 +85,7 @@ void AddCompile(CLI::App& app, Session& session) {
                                 "  plumb compile house.ifc.gz -o house.agraph --diagnostics-json house.json\n"
                                 "Status 1: the A-Graph is written, but has errors in it: in a plan without walls no robot can localize, say.\n"
                                 "Status 2: nothing is written: the file is damaged, too large, of no schema that is read, or has no building in it.");
-  sub->add_option("PLAN", flags->plan, "the plan: IFC as a STEP file, plain, gzipped or in a ZIP archive (.ifczip)")->required();
+  sub->add_option("PLAN", flags->plan, "the plan: IFC (STEP), a mesh (OBJ, PLY, STL, glTF, COLLADA), a Gazebo world (SDF); plain, gzipped or in a ZIP archive")->required();
   sub->add_option("-o,--output", flags->output, "the A-Graph to write")->required()->type_name("FILE.agraph");
   sub->add_option("--diagnostics-json", flags->diagnostics_json, "write what the compiler has to say about the plan as JSON")
       ->type_name("FILE");

@@ -17,7 +17,7 @@ struct MeshOptions {
   double max_free_gap_m = 4.0;         // between two ends in one line with nothing above or below
   double max_door_gap_m = 1.25;        // between the end of a wall and the flank of another
   double min_parapet_height_m = 0.8;   // lower walls bound no room
-  double line_tolerance_m = 0.006;     // faces this close in one direction lie in one plane
+  double line_tolerance_m = 0.004;     // faces this close in one direction lie in one plane
   double reader_time_s = 20;                        // that reading a mesh may take
   size_t reader_memory_bytes = size_t{2} << 30;     // of address space
   size_t max_triangles = 1500000;                   // of all objects

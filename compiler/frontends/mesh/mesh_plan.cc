@@ -23,6 +23,7 @@ constexpr double kNamedShare = 0.4;   // of the upright area in objects that are
 constexpr double kSkin_m = 0.02;      // triangles this close to a wall's box are its faces
 constexpr double kFloorSlack_m = 0.15, kLevel = 0.9;
 constexpr double kMaxDoorSill_m = 0.15, kMinDoorHeight_m = 1.6, kMinDoorWidth_m = 0.4;
+constexpr double kMaxStep_m = 0.3, kMaxSteppedDoor_m = 1.6;
 constexpr double kMinWindow_m2 = 0.05;
 constexpr double kWeld_m = 1e-4;
 constexpr uint32_t kPool = 0;  // group of the objects that make walls only together
@@ -33,8 +34,10 @@ struct StoreyWalls {
   std::vector<std::vector<std::vector<uint32_t>>> triangles;  // by piece and object
 };
 
+// A door's threshold may be a step; a window as low as that is wide.
 bool IsPassage(const WallVoid& v, double floor_z_m) {
-  return v.z0_m <= floor_z_m + kMaxDoorSill_m && v.z1_m - std::max(v.z0_m, floor_z_m) >= kMinDoorHeight_m &&
+  const bool narrow = v.span.s1_m - v.span.s0_m <= kMaxSteppedDoor_m;
+  return v.z0_m <= floor_z_m + (narrow ? kMaxStep_m : kMaxDoorSill_m) && v.z1_m - std::max(v.z0_m, floor_z_m) >= kMinDoorHeight_m &&
          v.span.s1_m - v.span.s0_m >= kMinDoorWidth_m;
 }
 
@@ -229,10 +232,12 @@ class Planner {
     opening.guid = guid;
     opening.location = plan_.elements[wall].location;
     opening.wall = wall;
-    opening.body = BoxOf(piece, v.span, v.z0_m, v.z1_m);
+    const double floor_z_m = storeys_[s].range.floor_z_m;
+    const bool passage = IsPassage(v, floor_z_m);
+    opening.body = BoxOf(piece, v.span, passage ? std::min(v.z0_m, std::max(floor_z_m, piece.z0_m)) : v.z0_m, v.z1_m);
     opening.width_m = v.span.s1_m - v.span.s0_m;
     opening.height_m = v.z1_m - v.z0_m;
-    if (!IsPassage(v, storeys_[s].range.floor_z_m)) {
+    if (!passage) {
       if (*opening.width_m * *opening.height_m < kMinWindow_m2) return;
       PlanElement window;
       window.kind = ElementKind::kWindow;

@@ -19,6 +19,7 @@ constexpr double kSameDirection_rad = 0.005;  // faces within it are parallel
 constexpr double kWeld_m = 0.003;            // ends of faces closer than this meet
 constexpr double kCap_m = 0.01;              // from the end of a wall to the face that closes it
 constexpr double kCovered = 0.9;
+constexpr double kMaxWarp = 4;               // tolerances between the ends of a face that is not quite straight
 
 struct Mark {
   double c_m = 0, s0_m = 0, s1_m = 0;
@@ -62,7 +63,7 @@ void Sweep(const std::vector<const Mark*>& marks, const Visit& visit) {
   }
 }
 
-// Numbers the lines by offset; returns their offsets: medians by length.
+// Numbers the lines by offset; returns their offsets: medians by length. Faces of a long wall that is not quite straight chain up.
 std::vector<double> NumberLines(std::vector<Mark>& marks, double tolerance_m) {
   std::vector<Mark*> sorted;
   for (Mark& m : marks) sorted.push_back(&m);
@@ -71,7 +72,7 @@ std::vector<double> NumberLines(std::vector<Mark>& marks, double tolerance_m) {
   for (size_t i = 0; i < sorted.size();) {
     size_t end = i;
     double length_m = 0, half_m = 0;
-    for (; end < sorted.size() && sorted[end]->c_m <= sorted[i]->c_m + tolerance_m; ++end) length_m += sorted[end]->s1_m - sorted[end]->s0_m;
+    for (; end < sorted.size() && (end == i || sorted[end]->c_m <= sorted[end - 1]->c_m + tolerance_m) && sorted[end]->c_m <= sorted[i]->c_m + kMaxWarp * tolerance_m; ++end) length_m += sorted[end]->s1_m - sorted[end]->s0_m;
     size_t middle = i;
     for (; middle + 1 < end && (half_m += sorted[middle]->s1_m - sorted[middle]->s0_m) < 0.5 * length_m; ++middle) {
     }

@@ -25,6 +25,7 @@ constexpr double kMaxParapetThickness_m = 0.35;
 constexpr double kMaxColumn_m = 0.8;
 constexpr double kMinVoid_m = 0.1;
 constexpr double kStep_m = 0.02;
+constexpr double kMaxCavity_m = 0.35, kCavityShare = 0.8;  // between skins of one wall; of the shorter one's length
 
 enum class State : uint8_t { kEmpty, kPartial, kCore };
 
@@ -70,6 +71,7 @@ class WallFinder {
     CloseGapsToFlanks();
     DropContained();
     MarkColumns();
+    CloseCavities();
     return std::move(pieces_);
   }
 
@@ -198,6 +200,7 @@ class WallFinder {
     const auto flush = [&] {
       if (open) {
         WallPiece piece = MakePiece(*open, false);
+        TurnIfShort(piece);
         if (piece.length_m() >= min_length_m) pieces_.push_back(std::move(piece));
       }
       open.reset();
@@ -210,6 +213,46 @@ class WallFinder {
       open->last = j;
     }
     flush();
+  }
+
+  // Piers that are longer across than along lie in the line of the other direction.
+  void TurnIfShort(WallPiece& p) const {
+    if (p.sheet || p.length_m() >= p.thickness_m() || !p.voids.empty()) return;
+    const FaceDirection& d = directions_[p.direction];
+    for (size_t i = 0; i < directions_.size(); ++i) {
+      const FaceDirection& q = directions_[i];
+      if (std::abs(q.along.dot(d.along)) > kWeld_m) continue;
+      const Vector2d a = d.At(p.span.s0_m, p.c0_m), b = d.At(p.span.s1_m, p.c1_m);
+      p.direction = i;
+      p.span = {std::min(q.S(a), q.S(b)), std::max(q.S(a), q.S(b))};
+      p.c0_m = std::min(q.C(a), q.C(b));
+      p.c1_m = std::max(q.C(a), q.C(b));
+      return;
+    }
+  }
+
+  // Skins of one wall with a cavity between them: the inner one takes the cavity.
+  void CloseCavities() {
+    for (WallPiece& p : pieces_) {
+      for (const WallPiece& q : pieces_) {
+        if (&p == &q || p.direction != q.direction || p.sheet || q.sheet || p.length_m() > q.length_m() + kTouch_m) continue;
+        const double common_m = std::min(p.span.s1_m, q.span.s1_m) - std::max(p.span.s0_m, q.span.s0_m);
+        if (common_m < kCavityShare * p.length_m()) continue;
+        const double above_m = q.c0_m - p.c1_m, below_m = p.c0_m - q.c1_m;
+        const double gap_m = std::max(above_m, below_m);
+        if (gap_m <= 0 || gap_m > kMaxCavity_m || p.thickness_m() + gap_m > 2 * options_.max_wall_thickness_m || IsCrossed(p, q, gap_m)) continue;
+        (above_m > 0 ? p.c1_m : p.c0_m) = above_m > 0 ? q.c0_m : q.c1_m;
+      }
+    }
+  }
+
+  // Something stands or opens in the gap: then it is no cavity but a passage or two walls.
+  bool IsCrossed(const WallPiece& p, const WallPiece& q, double gap_m) const {
+    const double c_m = q.c0_m > p.c1_m ? p.c1_m + 0.5 * gap_m : p.c0_m - 0.5 * gap_m;
+    for (const double u : {0.1, 0.5, 0.9}) {
+      if (PieceAt(At(p, p.span.s0_m + u * p.length_m(), c_m), nullptr, 0) != nullptr) return true;
+    }
+    return false;
   }
 
   [[nodiscard]] Vector2d At(const WallPiece& p, double s, double c) const { return directions_[p.direction].At(s, c); }
@@ -255,48 +298,86 @@ class WallFinder {
     return true;
   }
 
-  // Ends of lintels and sills that reach another wall, lintels between two flanks, parapets.
+  // Ends of lintels and sills that reach another wall, lintels between two flanks, bands of windows, parapets.
   void AddLooseRuns() {
-    const size_t cores = pieces_.size();
-    std::vector<WallPiece> found;
+    std::vector<Columns> runs;
     for (size_t grid = 0; grid < grids_.size(); ++grid) {
       const Grid& g = grids_[grid];
-      for (size_t j = 0; j < g.size(); ++j) {
+      for (size_t j = 0; !g.band->sheet && j < g.size(); ++j) {
         if (g.state[j] != State::kPartial) continue;
         Columns run{grid, j, j};
         while (run.last + 1 < g.size() && g.state[run.last + 1] == State::kPartial) ++run.last;
         j = run.last;
-        if (const std::optional<WallPiece> piece = LooseRun(run, cores)) found.push_back(*piece);
+        if (!IsWithinWall(run)) runs.push_back(run);
       }
     }
+    std::vector<WallPiece> found;
+    for (const Columns& run : runs) {
+      if (std::optional<WallPiece> piece = LooseRun(run)) found.push_back(std::move(*piece));
+    }
+    AddWindowBands(runs, found);
     for (WallPiece& p : found) pieces_.push_back(std::move(p));
   }
 
-  std::optional<WallPiece> LooseRun(const Columns& run, size_t cores) const {
-    const Grid& g = grids_[run.grid];
-    if (g.band->sheet) return std::nullopt;
-    const double length_m = g.s_m[run.last + 1] - g.s_m[run.first], c_m = 0.5 * (g.band->c0_m + g.band->c1_m);
-    if (length_m < kMinVoid_m || length_m > kMaxOpening_m * 2) return std::nullopt;
-    const FaceDirection& d = directions_[g.band->direction];
-    int touches = 0, in_line = 0;
-    bool within = false;
-    for (size_t i = 0; i < cores; ++i) {
-      const WallPiece& p = pieces_[i];
-      const FaceDirection& q = directions_[p.direction];
-      const bool start = p.Contains(q, d.At(g.s_m[run.first] - kStep_m, c_m), kTouch_m), end = p.Contains(q, d.At(g.s_m[run.last + 1] + kStep_m, c_m), kTouch_m);
-      const bool same_line = p.direction == g.band->direction && std::abs(p.c0_m - g.band->c0_m) < kSameLine_m && std::abs(p.c1_m - g.band->c1_m) < kSameLine_m;
-      touches |= (start ? 1 : 0) | (end ? 2 : 0);
-      if (same_line) in_line |= (start ? 1 : 0) | (end ? 2 : 0);
-      within |= p.Contains(q, d.At(0.5 * (g.s_m[run.first] + g.s_m[run.last + 1]), c_m), kWeld_m);
+  // Walls that are windows from end to end, with a sill and a lintel, if they reach other walls or each other.
+  void AddWindowBands(const std::vector<Columns>& runs, std::vector<WallPiece>& found) const {
+    std::vector<WallPiece> bands;
+    for (const Columns& run : runs) {
+      if (HasSill(run, kMaxFoot_m) && HasLintel(grids_[run.grid], run)) bands.push_back(MakePiece(run, false));
     }
-    if (within || touches == 0) return std::nullopt;
-    const bool is_low = std::all_of(g.low_m.begin() + static_cast<long>(run.first), g.low_m.begin() + static_cast<long>(run.last) + 1,
-                                    [&](double low_m) { return low_m >= options_.min_parapet_height_m; });
-    if (touches == 3 && length_m <= (in_line != 0 ? kMaxOpening_m : kMaxSpannedDoor_m)) return MakePiece(run, false);
-    const bool has_sill = std::all_of(g.low_m.begin() + static_cast<long>(run.first), g.low_m.begin() + static_cast<long>(run.last) + 1,
-                                      [](double low_m) { return low_m > kMaxFoot_m; });
-    if (touches == 3 && has_sill && !is_low && length_m <= kMaxOpening_m && HasLintel(g, run)) return MakePiece(run, false);
-    if (is_low && g.band->c1_m - g.band->c0_m <= kMaxParapetThickness_m && length_m >= kMinSheet_m) return MakePiece(run, true);
+    for (bool changed = true; changed;) {
+      const size_t before = bands.size();
+      for (size_t i = 0; i < bands.size(); ++i) {
+        const int touches = TouchesOf(bands[i], pieces_).any | TouchesOf(bands[i], found).any | TouchesOf(bands[i], bands).any;
+        if (touches != 3) bands.erase(bands.begin() + static_cast<long>(i--));
+      }
+      changed = bands.size() != before;
+    }
+    for (WallPiece& p : bands) {
+      const bool known = std::any_of(found.begin(), found.end(), [&](const WallPiece& f) { return IsWithin(p, f); });
+      if (!known) found.push_back(std::move(p));
+    }
+  }
+
+  // Which ends of a piece others hold: 1 its start, 2 its end; and of these the ones held by walls in the same line.
+  struct Touches {
+    int any = 0, in_line = 0;
+  };
+
+  Touches TouchesOf(const WallPiece& piece, const std::vector<WallPiece>& others) const {
+    Touches out;
+    const double c_m = 0.5 * (piece.c0_m + piece.c1_m);
+    for (const WallPiece& p : others) {
+      if (&p == &piece) continue;
+      const FaceDirection& q = directions_[p.direction];
+      const int ends = (p.Contains(q, At(piece, piece.span.s0_m - kStep_m, c_m), kTouch_m) ? 1 : 0) |
+                       (p.Contains(q, At(piece, piece.span.s1_m + kStep_m, c_m), kTouch_m) ? 2 : 0);
+      out.any |= ends;
+      const bool same_line = p.direction == piece.direction && std::abs(p.c0_m - piece.c0_m) < kSameLine_m && std::abs(p.c1_m - piece.c1_m) < kSameLine_m;
+      if (same_line) out.in_line |= ends;
+    }
+    return out;
+  }
+
+  bool IsWithinWall(const Columns& run) const {
+    const Grid& g = grids_[run.grid];
+    const Vector2d middle = directions_[g.band->direction].At(0.5 * (g.s_m[run.first] + g.s_m[run.last + 1]), 0.5 * (g.band->c0_m + g.band->c1_m));
+    return PieceAt(middle, nullptr, kWeld_m) != nullptr;
+  }
+
+  bool HasSill(const Columns& run, double height_m) const {
+    const Grid& g = grids_[run.grid];
+    return std::all_of(g.low_m.begin() + static_cast<long>(run.first), g.low_m.begin() + static_cast<long>(run.last) + 1,
+                       [&](double low_m) { return low_m >= height_m; });
+  }
+
+  std::optional<WallPiece> LooseRun(const Columns& run) const {
+    WallPiece piece = MakePiece(run, false);
+    if (piece.length_m() < kMinVoid_m) return std::nullopt;
+    const Touches touches = TouchesOf(piece, pieces_);
+    if (touches.any == 3 && piece.length_m() <= (touches.in_line != 0 ? kMaxOpening_m : kMaxSpannedDoor_m)) return piece;
+    const bool low = HasSill(run, options_.min_parapet_height_m) && piece.thickness_m() <= kMaxParapetThickness_m && piece.length_m() >= kMinSheet_m;
+    if (touches.any != 0 && low) return MakePiece(run, true);
     return std::nullopt;
   }
 

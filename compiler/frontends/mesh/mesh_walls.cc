@@ -67,6 +67,7 @@ class WallFinder {
     }
     DropContained();
     AddLooseRuns();
+    AlignPiers();
     CloseGapsInLine();
     CloseGapsToFlanks();
     DropContained();
@@ -176,6 +177,22 @@ class WallFinder {
       AddVoidsOfColumns(g, j, end, out);
       j = end;
     }
+    MergeVoids(out.voids);
+  }
+
+  // Columns that differ elsewhere only: one opening.
+  static void MergeVoids(std::vector<WallVoid>& voids) {
+    std::vector<WallVoid> merged;
+    for (const WallVoid& v : voids) {
+      const auto left = std::find_if(merged.begin(), merged.end(), [&](const WallVoid& m) {
+        return std::abs(m.span.s1_m - v.span.s0_m) <= kWeld_m && std::abs(m.z0_m - v.z0_m) <= kTouch_m && std::abs(m.z1_m - v.z1_m) <= kTouch_m;
+      });
+      if (left != merged.end())
+        left->span.s1_m = v.span.s1_m;
+      else
+        merged.push_back(v);
+    }
+    voids = std::move(merged);
   }
 
   void AddVoidsOfColumns(const Grid& g, size_t first, size_t end, WallPiece& out) const {
@@ -200,7 +217,6 @@ class WallFinder {
     const auto flush = [&] {
       if (open) {
         WallPiece piece = MakePiece(*open, false);
-        TurnIfShort(piece);
         if (piece.length_m() >= min_length_m) pieces_.push_back(std::move(piece));
       }
       open.reset();
@@ -215,20 +231,41 @@ class WallFinder {
     flush();
   }
 
-  // Piers that are longer across than along lie in the line of the other direction.
-  void TurnIfShort(WallPiece& p) const {
-    if (p.sheet || p.length_m() >= p.thickness_m() || !p.voids.empty()) return;
+  // Piers have no direction of their own: they lie in the line of another wall, else along their longer side.
+  void AlignPiers() {
+    for (WallPiece& p : pieces_) {
+      if (p.sheet || !p.voids.empty() || std::max(p.length_m(), p.thickness_m()) > kMaxColumn_m || HasPartner(p)) continue;
+      const std::optional<WallPiece> turned = Turned(p);
+      if (turned && (p.length_m() < p.thickness_m() || HasPartner(*turned))) p = *turned;
+    }
+  }
+
+  bool HasPartner(const WallPiece& p) const {
+    return std::any_of(pieces_.begin(), pieces_.end(), [&](const WallPiece& q) {
+      const double gap_m = std::max(q.span.s0_m - p.span.s1_m, p.span.s0_m - q.span.s1_m);
+      return IsInLine(p, q) && gap_m >= kMinGap_m && gap_m <= options_.max_free_gap_m;
+    });
+  }
+
+  static bool IsInLine(const WallPiece& p, const WallPiece& q) {
+    return p.direction == q.direction && std::abs(p.c0_m - q.c0_m) <= kSameLine_m && std::abs(p.c1_m - q.c1_m) <= kSameLine_m;
+  }
+
+  // Seen along the direction square to its own, if the plan has it.
+  std::optional<WallPiece> Turned(const WallPiece& p) const {
     const FaceDirection& d = directions_[p.direction];
     for (size_t i = 0; i < directions_.size(); ++i) {
       const FaceDirection& q = directions_[i];
       if (std::abs(q.along.dot(d.along)) > kWeld_m) continue;
       const Vector2d a = d.At(p.span.s0_m, p.c0_m), b = d.At(p.span.s1_m, p.c1_m);
-      p.direction = i;
-      p.span = {std::min(q.S(a), q.S(b)), std::max(q.S(a), q.S(b))};
-      p.c0_m = std::min(q.C(a), q.C(b));
-      p.c1_m = std::max(q.C(a), q.C(b));
-      return;
+      WallPiece out = p;
+      out.direction = i;
+      out.span = {std::min(q.S(a), q.S(b)), std::max(q.S(a), q.S(b))};
+      out.c0_m = std::min(q.C(a), q.C(b));
+      out.c1_m = std::max(q.C(a), q.C(b));
+      return out;
     }
+    return std::nullopt;
   }
 
   // Skins of one wall with a cavity between them: the inner one takes the cavity.
@@ -304,11 +341,11 @@ class WallFinder {
     for (size_t grid = 0; grid < grids_.size(); ++grid) {
       const Grid& g = grids_[grid];
       for (size_t j = 0; !g.band->sheet && j < g.size(); ++j) {
-        if (g.state[j] != State::kPartial) continue;
+        if (g.state[j] != State::kPartial || IsWithinWall(g, j)) continue;
         Columns run{grid, j, j};
-        while (run.last + 1 < g.size() && g.state[run.last + 1] == State::kPartial) ++run.last;
+        while (run.last + 1 < g.size() && g.state[run.last + 1] == State::kPartial && !IsWithinWall(g, run.last + 1)) ++run.last;
         j = run.last;
-        if (!IsWithinWall(run)) runs.push_back(run);
+        runs.push_back(run);
       }
     }
     std::vector<WallPiece> found;
@@ -353,16 +390,14 @@ class WallFinder {
       const int ends = (p.Contains(q, At(piece, piece.span.s0_m - kStep_m, c_m), kTouch_m) ? 1 : 0) |
                        (p.Contains(q, At(piece, piece.span.s1_m + kStep_m, c_m), kTouch_m) ? 2 : 0);
       out.any |= ends;
-      const bool same_line = p.direction == piece.direction && std::abs(p.c0_m - piece.c0_m) < kSameLine_m && std::abs(p.c1_m - piece.c1_m) < kSameLine_m;
-      if (same_line) out.in_line |= ends;
+      if (IsInLine(p, piece)) out.in_line |= ends;
     }
     return out;
   }
 
-  bool IsWithinWall(const Columns& run) const {
-    const Grid& g = grids_[run.grid];
-    const Vector2d middle = directions_[g.band->direction].At(0.5 * (g.s_m[run.first] + g.s_m[run.last + 1]), 0.5 * (g.band->c0_m + g.band->c1_m));
-    return PieceAt(middle, nullptr, kWeld_m) != nullptr;
+  bool IsWithinWall(const Grid& g, size_t j) const {
+    const FaceDirection& d = directions_[g.band->direction];
+    return PieceAt(d.At(0.5 * (g.s_m[j] + g.s_m[j + 1]), 0.5 * (g.band->c0_m + g.band->c1_m)), nullptr, kWeld_m) != nullptr;
   }
 
   bool HasSill(const Columns& run, double height_m) const {
@@ -438,8 +473,7 @@ class WallFinder {
   }
 
   bool IsGapBetween(const WallPiece& p, const WallPiece& q) const {
-    if (p.direction != q.direction || p.parapet != q.parapet) return false;
-    if (std::abs(p.c0_m - q.c0_m) > kSameLine_m || std::abs(p.c1_m - q.c1_m) > kSameLine_m) return false;
+    if (p.parapet != q.parapet || !IsInLine(p, q)) return false;
     const double gap_m = q.span.s0_m - p.span.s1_m;
     if (gap_m < kMinGap_m || gap_m > options_.max_free_gap_m || !IsFree(p, 1) || !IsFree(q, -1)) return false;
     if (gap_m > options_.max_door_gap_m && (IsCorner(p, 1) || IsCorner(q, -1))) return false;

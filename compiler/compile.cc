@@ -15,6 +15,7 @@
 #include "compiler/emit/emit.h"
 #include "compiler/frontends/ifc/ifc_frontend.h"
 #include "compiler/frontends/mesh/mesh_frontend.h"
+#include "compiler/frontends/sdf/sdf_frontend.h"
 #include "compiler/passes/alias_forecast.h"
 #include "compiler/passes/build_agraph.h"
 #include "compiler/source/source.h"
@@ -58,6 +59,7 @@ MeshOptions MeshOptionsFrom(const CompileOptions& options) {
 std::optional<PlanIr> ReadPlan(const std::string& path, const CompileOptions& options, DiagnosticSink& sink) {
   const std::optional<Source> source = LoadSource(path, sink);
   if (!source || !IsSupported(*source, sink)) return std::nullopt;
+  if (source->format == SourceFormat::kSdf) return ReadSdf(*source, sink, MeshOptionsFrom(options));
   if (IsMesh(source->format)) return ReadMesh(*source, sink, MeshOptionsFrom(options));
   return ReadIfc(*source, sink);
 }

@@ -74,7 +74,9 @@ void AddCompileOptions(CLI::App& subcommand, compiler::CompileOptions& options) 
   subcommand.add_option("--max-gap", options.max_gap_m, "walls closer than this are taken to meet where that keeps two rooms apart, m");
   subcommand.add_option("--unit", options.unit, "of meshes: m, cm, mm, in or ft; else as stated by the file or seen in its walls");
   subcommand.add_option("--up", options.up, "of meshes: x, y or z; else as stated by the file or seen in its walls");
-  subcommand.add_option("--model-path", options.model_path, "of Gazebo worlds: folders besides the world's own that hold included models");
+  subcommand.add_option("--model-path", options.model_path, "of Gazebo worlds: folders besides the world's own that hold included models")
+      ->envname("GAZEBO_MODEL_PATH")
+      ->delimiter(':');
   subcommand.add_option("--divide-open-plans", options.divide_open_plans, "along the plan's spaces where no walls do; else one room");
 }
 

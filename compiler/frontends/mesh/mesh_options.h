@@ -10,7 +10,7 @@ namespace plumb::compiler {
 struct MeshOptions {
   std::string unit;  // m, cm, mm, in or ft; empty: as stated by the file or seen in its walls
   std::string up;    // x, y or z; empty: as stated by the file or seen in its walls
-  double section_height_m = 1.1;       // rooms are closed by whatever stands as high; parapets are raised to it
+  double section_height_m = 1.1;       // rooms are closed by whatever stands as high; parapets are raised above it
   double min_wall_thickness_m = 0.01;  // faces closer than this are one sheet
   double max_wall_thickness_m = 0.65;  // faces farther apart than this are no wall
   double sheet_thickness_m = 0.1;      // of walls that have one face only

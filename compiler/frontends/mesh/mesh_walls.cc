@@ -163,7 +163,7 @@ class WallFinder {
       }
     }
     if (parapet)
-      out.z1_m = std::max(out.z1_m, range_.floor_z_m + options_.section_height_m + kMinGap_m);
+      out.z1_m = std::max(out.z1_m, range_.floor_z_m + std::max(kReference_m, options_.section_height_m + kMinGap_m));
     else
       AddVoids(run, out);
     return out;

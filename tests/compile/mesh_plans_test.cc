@@ -117,7 +117,7 @@ std::string MappedOffice(double scale, bool y_up, bool drop_objects, bool mixed_
 
 AGraph CompileText(const std::string& text, const std::string& name, const CompileOptions& options = {}) {
   const test::TemporaryFolder folder;
-  const fs::path path = folder.path() / name;
+  const fs::path path = fs::path(folder.path()) / name;
   std::ofstream(path, std::ios::binary) << text;
   return CompileFine(path, options);
 }
@@ -150,7 +150,7 @@ TEST(MeshPlans, CompileToTheSameBytesEachTime) {
 // Errors, not graphs, and soon.
 void ExpectRefused(const std::string& text, const std::string& name, DiagnosticKind kind) {
   const test::TemporaryFolder folder;
-  const fs::path path = folder.path() / name;
+  const fs::path path = fs::path(folder.path()) / name;
   std::ofstream(path, std::ios::binary) << text;
   const CompileResult result = Compile(path.string());
   EXPECT_FALSE(result.graph) << name;

@@ -1,6 +1,5 @@
 #include "compiler/frontends/mesh/mesh_reader.h"
 
-#include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
@@ -147,7 +146,6 @@ Expected<std::vector<MeshObject>> ReadWithAssimp(std::string_view bytes, const s
   Assimp::Importer importer;
   const std::string main = std::string(kMainName) + "." + hint;
   importer.SetIOHandler(new FolderOnly(bytes, main, folder));  // the importer owns it
-  importer.SetPropertyInteger(AI_CONFIG_PP_SBP_REMOVE, aiPrimitiveType_POINT | aiPrimitiveType_LINE);
   const aiScene* scene = importer.ReadFile(main, aiProcess_Triangulate | aiProcess_SortByPType);
   if (scene == nullptr || scene->mRootNode == nullptr) return Fail(ErrorCode::kFileUnreadable, importer.GetErrorString());
   return Flattener(*scene, max_triangles).Run();

@@ -71,6 +71,7 @@ class WallFinder {
     CloseGapsInLine();
     CloseGapsToFlanks();
     DropContained();
+    DropFilledVoids();
     MarkColumns();
     CloseCavities();
     return std::move(pieces_);
@@ -501,6 +502,28 @@ class WallFinder {
         ++p.closed_gaps;
       }
     }
+  }
+
+  // Where a wall changes its thickness the next one stands in what is missing of it.
+  void DropFilledVoids() {
+    for (WallPiece& p : pieces_) {
+      std::erase_if(p.voids, [&](const WallVoid& v) {
+        for (const double u : {0.1, 0.5, 0.9}) {
+          const Vector2d at = At(p, v.span.s0_m + u * (v.span.s1_m - v.span.s0_m), 0.5 * (p.c0_m + p.c1_m));
+          if (std::none_of(pieces_.begin(), pieces_.end(), [&](const WallPiece& q) { return &p != &q && IsSolidAt(q, at, 0.5 * (v.z0_m + v.z1_m)); }))
+            return false;
+        }
+        return true;
+      });
+    }
+  }
+
+  bool IsSolidAt(const WallPiece& q, const Vector2d& at, double z_m) const {
+    const FaceDirection& d = directions_[q.direction];
+    if (!q.Contains(d, at, 0)) return false;
+    return std::none_of(q.voids.begin(), q.voids.end(), [&](const WallVoid& v) {
+      return d.S(at) >= v.span.s0_m && d.S(at) <= v.span.s1_m && z_m >= v.z0_m && z_m <= v.z1_m;
+    });
   }
 
   void MarkColumns() {

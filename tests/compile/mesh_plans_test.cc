@@ -142,6 +142,39 @@ TEST(MeshAxes, OfAYUpMeshAreSeenInItsHeights) { ExpectOffice(CompileText(MappedO
 TEST(MeshSoup, OfAllWallsInOneObjectGivesTheRooms) { ExpectOffice(CompileText(MappedOffice(1, false, true), "plan.obj")); }
 TEST(MeshSoup, WithFacesEitherWayRoundGivesTheRooms) { ExpectOffice(CompileText(MappedOffice(1, false, true, true), "plan.obj")); }
 
+// The office twice, 2.9 m apart, each on a slab.
+TEST(MeshStoreys, AreToldFromTheirFloors) {
+  std::ostringstream out;
+  size_t corners = 0;
+  for (const double floor_m : {0.0, 2.9}) {
+    const size_t base = corners;
+    std::istringstream in(ReadText(kOffice / "plan.obj"));
+    std::string line;
+    while (std::getline(in, line)) {
+      double x = 0, y = 0, z = 0;
+      size_t a = 0, b = 0, c = 0, d = 0;
+      if (std::sscanf(line.c_str(), "v %lf %lf %lf", &x, &y, &z) == 3) {
+        out << "v " << x << ' ' << y << ' ' << z + floor_m << '\n';
+        ++corners;
+      } else if (std::sscanf(line.c_str(), "f %zu %zu %zu %zu", &a, &b, &c, &d) == 4) {
+        out << "f " << a + base << ' ' << b + base << ' ' << c + base << ' ' << d + base << '\n';
+      } else {
+        out << line << '\n';
+      }
+    }
+    out << "o floor\n";
+    for (const auto& [x, y] : {std::pair(24.97, 39.46), std::pair(35.05, 47.02), std::pair(29.89, 53.9), std::pair(19.81, 46.34)})
+      out << "v " << x << ' ' << y << ' ' << floor_m << '\n';
+    corners += 4;
+    out << "f " << corners - 3 << ' ' << corners - 2 << ' ' << corners - 1 << ' ' << corners << '\n';
+  }
+  const AGraph graph = CompileText(out.str(), "plan.obj");
+  ASSERT_EQ(graph.storeys.size(), 2u);
+  EXPECT_NEAR(graph.storeys[1].elevation_m, 2.9, 1e-3);
+  EXPECT_EQ(graph.rooms.size(), 14u);
+  EXPECT_EQ(graph.doorways.size(), 18u);
+}
+
 TEST(MeshPlans, CompileToTheSameBytesEachTime) {
   const AGraph once = CompileFine(kOffice / "plan.obj"), again = CompileFine(kOffice / "plan.obj");
   EXPECT_EQ(WriteAGraph(once), WriteAGraph(again));

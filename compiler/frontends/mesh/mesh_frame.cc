@@ -87,7 +87,7 @@ double Likeness(const MeshScene& scene, double length_m, const MeshOptions& opti
   for (MeshObject& o : objects) {
     for (Vector3d& v : o.solid.vertices) v *= length_m;
   }
-  const std::vector<StoreyRange> storeys = FindStoreys(objects);
+  const std::vector<StoreyRange> storeys = FindStoreys(objects, objects);
   if (storeys.empty()) return 0;
   const StoreyRange& range = storeys.front();
   const double height_m = range.top_z_m - range.floor_z_m;

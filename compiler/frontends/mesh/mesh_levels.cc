@@ -48,21 +48,25 @@ struct Profile {
   [[nodiscard]] double Z(size_t i) const { return z0_m + (static_cast<double>(i) + 0.5) * kBin_m; }
 };
 
-Profile ProfileOf(const std::vector<MeshObject>& objects) {
+Profile ProfileOf(const std::vector<MeshObject>& walls, const std::vector<MeshObject>& objects) {
   Profile out;
-  for (const MeshObject& o : objects) out.box.extend(Bounds(o.solid));
+  for (const MeshObject& o : walls) out.box.extend(Bounds(o.solid));
   if (out.box.isEmpty()) return out;
   constexpr double kMaxBins = 100000;
   out.z0_m = out.box.min().z() - kBin_m;
   const auto bins = static_cast<size_t>(std::min(out.box.sizes().z() / kBin_m + 3, kMaxBins));
   out.upright.assign(bins, 0);
   out.level.assign(bins, 0);
+  const double bottom = out.box.min().z() - kSlab_m, top = out.box.max().z() + kSlab_m;
   const auto bin = [&](double z) { return std::min(bins - 1, static_cast<size_t>(std::max(0.0, (z - out.z0_m) / kBin_m))); };
   ForEach(objects, [&](const Corners& f) {
-    const double area = 0.5 * f.n.norm(), nz = std::abs(f.n.z()) / f.n.norm();
+    const double z = (f.a.z() + f.b.z() + f.c.z()) / 3;
+    if (std::abs(f.n.z()) > kLevel * f.n.norm() && z > bottom && z < top) out.level[bin(z)] += 0.5 * f.n.norm();
+  });
+  ForEach(walls, [&](const Corners& f) {
+    if (std::abs(f.n.z()) > kUpright * f.n.norm()) return;
+    const double area = 0.5 * f.n.norm();
     const double low = std::min({f.a.z(), f.b.z(), f.c.z()}), high = std::max({f.a.z(), f.b.z(), f.c.z()});
-    if (nz > kLevel) out.level[bin((f.a.z() + f.b.z() + f.c.z()) / 3)] += area;
-    if (nz > kUpright) return;
     const size_t first = bin(low), last = bin(high);
     for (size_t i = first; i <= last; ++i) out.upright[i] += area / static_cast<double>(last - first + 1);
   });
@@ -71,8 +75,8 @@ Profile ProfileOf(const std::vector<MeshObject>& objects) {
 
 }  // namespace
 
-std::vector<StoreyRange> FindStoreys(const std::vector<MeshObject>& objects) {
-  const Profile profile = ProfileOf(objects);
+std::vector<StoreyRange> FindStoreys(const std::vector<MeshObject>& walls, const std::vector<MeshObject>& objects) {
+  const Profile profile = ProfileOf(walls, objects);
   if (profile.upright.empty()) return {};
   const double most = *std::max_element(profile.upright.begin(), profile.upright.end());
   if (!(most > 0)) return {};

@@ -48,7 +48,7 @@ class Planner {
   PlanIr Run() {
     ChooseWallObjects();
     directions_ = FindDirections(wall_objects_);
-    for (const StoreyRange& range : FindStoreys(wall_objects_)) {
+    for (const StoreyRange& range : FindStoreys(wall_objects_, objects_)) {
       PlanStorey storey;
       storey.name = fmt::format("Level {}", plan_.storeys.size());
       storey.elevation_m = range.floor_z_m;

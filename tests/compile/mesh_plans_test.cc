@@ -159,10 +159,10 @@ TEST(MeshStoreys, AreToldFromTheirFloors) {
       } else if (std::sscanf(line.c_str(), "f %zu %zu %zu %zu", &a, &b, &c, &d) == 4) {
         out << "f " << a + base << ' ' << b + base << ' ' << c + base << ' ' << d + base << '\n';
       } else {
-        out << line << '\n';
+        out << line << '_' << floor_m << '\n';
       }
     }
-    out << "o floor\n";
+    out << "o floor_" << floor_m << '\n';
     for (const auto& [x, y] : {std::pair(24.97, 39.46), std::pair(35.05, 47.02), std::pair(29.89, 53.9), std::pair(19.81, 46.34)})
       out << "v " << x << ' ' << y << ' ' << floor_m << '\n';
     corners += 4;

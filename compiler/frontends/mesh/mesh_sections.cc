@@ -353,12 +353,12 @@ std::vector<FaceDirection> FindDirections(const std::vector<MeshObject>& objects
 
 Facing FindFacing(const std::vector<FaceDirection>& directions, const SectionStack& stack, const MeshOptions& options) {
   double apart_m = 0, towards_m = 0, same_m = 0;
-  for (size_t d = 0; d < directions.size(); ++d) {
-    for (size_t k = 0; k < stack.heights_m.size(); ++k) {
-      std::vector<Mark> marks;
-      for (const FaceSegment& f : stack.segments[k]) {
-        if (DirectionOf(directions, f.b - f.a) == d) marks.push_back(MarkOf(directions[d], f, k));
-      }
+  for (size_t k = 0; k < stack.heights_m.size(); ++k) {
+    std::vector<std::vector<Mark>> by_direction(directions.size());
+    for (const FaceSegment& f : stack.segments[k]) {
+      if (const auto d = DirectionOf(directions, f.b - f.a)) by_direction[*d].push_back(MarkOf(directions[*d], f, k));
+    }
+    for (std::vector<Mark>& marks : by_direction) {
       const std::vector<double> offsets = NumberLines(marks, options.line_tolerance_m);
       std::vector<const Mark*> pointers;
       for (const Mark& m : marks) pointers.push_back(&m);

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <set>
 #include <sstream>
 
 #include "compiler/frontends/mesh/mesh_loader.h"

@@ -1,5 +1,5 @@
-// Meshes and Gazebo worlds of other people, read in place, against what a person counts in their sections; and our own plan as a mesh against
-// the same plan as IFC.
+// Meshes and Gazebo worlds of other people, read in place, against what a person counts in their sections; and our own plan as a mesh
+// against the same plan as IFC.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -73,19 +73,25 @@ TEST(SiteOffice, AsAMeshHasTheRoomsDoorwaysAndSurfacesOfTheIfcWithinACentimetre)
   ASSERT_EQ(mesh.walls.size(), ifc.walls.size());
   EXPECT_EQ(mesh.surfaces.size(), ifc.surfaces.size());
   for (const Room& r : ifc.rooms) {
-    EXPECT_LT(Least(mesh.rooms, [&](const Room& m) { return (m.center - r.center).norm() + std::abs(m.area_m2 - r.area_m2); }), 0.01) << r.name;
+    EXPECT_LT(Least(mesh.rooms, [&](const Room& m) { return (m.center - r.center).norm() + std::abs(m.area_m2 - r.area_m2); }), 0.01)
+        << r.name;
   }
   for (const Doorway& d : ifc.doorways) {
-    EXPECT_LT(Least(mesh.doorways, [&](const Doorway& m) { return (m.position - d.position).norm() + std::abs(m.width_m - d.width_m); }), 0.01) << d.name;
+    EXPECT_LT(Least(mesh.doorways, [&](const Doorway& m) { return (m.position - d.position).norm() + std::abs(m.width_m - d.width_m); }),
+              0.01)
+        << d.name;
   }
   for (const Surface& s : ifc.surfaces) {
-    EXPECT_LT(Least(mesh.surfaces, [&](const Surface& m) { return (m.start - s.start).norm() + (m.end - s.end).norm(); }), 0.01) << s.midpoint().transpose();
+    EXPECT_LT(Least(mesh.surfaces, [&](const Surface& m) { return (m.start - s.start).norm() + (m.end - s.end).norm(); }), 0.01)
+        << s.midpoint().transpose();
   }
 }
 
 TEST(SiteOffice, AsAMeshNamesItsWallsAsTheObjects) {
   const AGraph mesh = CompileFine(kOffice / "plan.obj");
-  const auto has = [&](const char* name) { return std::any_of(mesh.walls.begin(), mesh.walls.end(), [&](const Wall& w) { return w.guid == name; }); };
+  const auto has = [&](const char* name) {
+    return std::any_of(mesh.walls.begin(), mesh.walls.end(), [&](const Wall& w) { return w.guid == name; });
+  };
   for (const char* name : {"South", "North", "West", "East", "Corridor_south", "Between_offices"}) EXPECT_TRUE(has(name)) << name;
 }
 
@@ -193,16 +199,18 @@ void ExpectRefused(const std::string& text, const std::string& name, DiagnosticK
 
 TEST(HostileMeshes, AreRefused) {
   ExpectRefused(std::string("\xff\xd8\xff\xe0\0\x10JFIF\0", 12) + std::string(5000, '\x7f'), "photo.obj", DiagnosticKind::kUnknownFormat);
-  ExpectRefused("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
-                "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n",
-                "cut.ply", DiagnosticKind::kMeshWithoutTriangles);
+  ExpectRefused(
+      "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\nelement face 1\n"
+      "property list uchar int vertex_indices\nend_header\n0 0 0\n1 0 0\n",
+      "cut.ply", DiagnosticKind::kMeshWithoutTriangles);
   ExpectRefused("o w\nv 0 0 0\nv 1 0 0\nv 1 1e20 0\nf 1 2 3\n", "far.obj", DiagnosticKind::kMeshNotFinite);
   ExpectRefused("glTF\2\0\0\0", "cut.glb", DiagnosticKind::kMeshUnreadable);
 }
 
 TEST(HostileMeshes, WithTooManyTrianglesAreRefused) {
   std::string text = "o w\n";
-  for (int i = 0; i < 1000; ++i) text += "v " + std::to_string(i % 10) + " " + std::to_string(i / 10 % 10) + " " + std::to_string(i / 100) + "\n";
+  for (int i = 0; i < 1000; ++i)
+    text += "v " + std::to_string(i % 10) + " " + std::to_string(i / 10 % 10) + " " + std::to_string(i / 100) + "\n";
   for (int i = 0; i < 1600000; ++i) text += "f 1 2 " + std::to_string(3 + i % 990) + "\n";
   ExpectRefused(text, "huge.obj", DiagnosticKind::kMeshTooLarge);
 }

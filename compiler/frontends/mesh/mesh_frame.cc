@@ -24,10 +24,10 @@ struct Unit {
 constexpr std::array kUnits = {Unit{"m", 1.0}, Unit{"mm", 0.001}, Unit{"cm", 0.01}, Unit{"in", 0.0254}, Unit{"ft", 0.3048}};
 // What storeys and walls measure, and how far that spreads (of the logarithm).
 constexpr double kStoreyHeight_m = 2.7, kStoreySpread = 0.35, kThickness_m = 0.16, kThicknessSpread = 0.6;
-constexpr double kUnpaired = 0.05;           // of the weight, for meshes without any wall of two faces
-constexpr double kStatedAdvantage = 20;      // a stated unit is left only for one that fits this many times better
+constexpr double kUnpaired = 0.05;       // of the weight, for meshes without any wall of two faces
+constexpr double kStatedAdvantage = 20;  // a stated unit is left only for one that fits this many times better
 constexpr double kStatedAxisAdvantage = 0.6, kUsualAxisAdvantage = 0.2;  // in nats
-constexpr double kLevels = 2000;             // steps of the histogram over the greatest extent
+constexpr double kLevels = 2000;                                         // steps of the histogram over the greatest extent
 
 double Bell(double value, double middle, double spread) {
   const double x = std::log(std::max(value, 1e-9) / middle) / spread;
@@ -146,10 +146,12 @@ void ChooseUp(const MeshOptions& options, MeshScene& scene, DiagnosticSink& sink
     up = FindUp(scene);
     if (scene.up && *scene.up != up) {
       sink.Emit(DiagnosticKind::kMeshAxisContradiction, {},
-                fmt::format("the format has {} up, but floors and lintels lie across {}; {} is taken to be up", NameOf(*scene.up), NameOf(up), NameOf(up)),
+                fmt::format("the format has {} up, but floors and lintels lie across {}; {} is taken to be up", NameOf(*scene.up),
+                            NameOf(up), NameOf(up)),
                 "state it: plumb compile --up");
     } else {
-      sink.Emit(DiagnosticKind::kMeshFrame, {}, fmt::format("{} is up, as {}", NameOf(up), scene.up ? "the format has it" : "its heights show"));
+      sink.Emit(DiagnosticKind::kMeshFrame, {},
+                fmt::format("{} is up, as {}", NameOf(up), scene.up ? "the format has it" : "its heights show"));
     }
   } else {
     up = options.up == "x" ? UpAxis::kX : options.up == "y" ? UpAxis::kY : UpAxis::kZ;
@@ -163,7 +165,8 @@ void ChooseUnit(const MeshOptions& options, MeshScene& scene, DiagnosticSink& si
     unit_m = FindUnit(scene, options);
     if (scene.unit_m && *scene.unit_m != unit_m) {
       sink.Emit(DiagnosticKind::kMeshUnitContradiction, {},
-                fmt::format("the format's unit is {}, but storeys and walls measure as in {}; {} is taken", TextOf(*scene.unit_m), TextOf(unit_m), TextOf(unit_m)),
+                fmt::format("the format's unit is {}, but storeys and walls measure as in {}; {} is taken", TextOf(*scene.unit_m),
+                            TextOf(unit_m), TextOf(unit_m)),
                 "state it: plumb compile --unit");
     } else {
       sink.Emit(DiagnosticKind::kMeshFrame, {},

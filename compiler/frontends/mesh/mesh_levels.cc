@@ -11,11 +11,11 @@ using Eigen::Vector3d;
 
 constexpr double kUpright = 0.1, kLevel = 0.98;  // of the normal's z
 constexpr double kBin_m = 0.02;
-constexpr double kFloorShare = 0.15;    // of the plan's extent that a floor covers at least
-constexpr double kSlab_m = 0.6;         // the faces of one floor lie within it
+constexpr double kFloorShare = 0.15;  // of the plan's extent that a floor covers at least
+constexpr double kSlab_m = 0.6;       // the faces of one floor lie within it
 constexpr double kMinStorey_m = 1.9;
-constexpr double kEyes_m = 1.1;         // where walls are looked for above a floor
-constexpr double kStanding = 0.3;       // of the length of walls where it is greatest, to count as a storey
+constexpr double kEyes_m = 1.1;    // where walls are looked for above a floor
+constexpr double kStanding = 0.3;  // of the length of walls where it is greatest, to count as a storey
 constexpr double kWeld_m = 0.005;
 constexpr size_t kMaxBreaks = 40;
 constexpr double kMinSlice_m = 0.02;
@@ -28,8 +28,10 @@ template <class Visit>
 void ForEach(const std::vector<MeshObject>& objects, const Visit& visit) {
   for (const MeshObject& o : objects) {
     for (const Eigen::Vector3i& t : o.solid.triangles) {
-      Corners f{o.solid.vertices[static_cast<size_t>(t[0])], o.solid.vertices[static_cast<size_t>(t[1])],
-                o.solid.vertices[static_cast<size_t>(t[2])], {}};
+      Corners f{o.solid.vertices[static_cast<size_t>(t[0])],
+                o.solid.vertices[static_cast<size_t>(t[1])],
+                o.solid.vertices[static_cast<size_t>(t[2])],
+                {}};
       f.n = (f.b - f.a).cross(f.c - f.a);
       if (f.n.squaredNorm() > 0) visit(f);
     }
@@ -115,7 +117,8 @@ std::vector<StoreyRange> FindStoreys(const std::vector<MeshObject>& walls, const
     if (mean.second > 0) floors[i] = mean.first / mean.second;
   }
   std::vector<StoreyRange> out;
-  for (size_t i = 0; i < floors.size(); ++i) out.push_back({floors[i], i + 1 < floors.size() ? floors[i + 1] : std::max(top_m, floors[i] + kEyes_m)});
+  for (size_t i = 0; i < floors.size(); ++i)
+    out.push_back({floors[i], i + 1 < floors.size() ? floors[i + 1] : std::max(top_m, floors[i] + kEyes_m)});
   return out;
 }
 

@@ -8,12 +8,14 @@
 namespace plumb::compiler {
 namespace {
 
-constexpr std::array kFurnishing = {"frame", "rahmen", "handrail", "handle", "rail",  "bumper", "stair", "treppe", "escalier", "table", "tisch",
-                                    "chair", "stuhl",  "sofa",     "bed_",   "desk",  "lamp",   "light", "sink",   "toilet",   "plant", "curtain",
-                                    "floor", "boden",  "ground",   "ceiling", "decke", "roof",  "dach",  "slab",   "cabinet",  "shelf", "portrait"};
+constexpr std::array kFurnishing = {"frame", "rahmen", "handrail", "handle",  "rail",  "bumper",  "stair",  "treppe",  "escalier",
+                                    "table", "tisch",  "chair",    "stuhl",   "sofa",  "bed_",    "desk",   "lamp",    "light",
+                                    "sink",  "toilet", "plant",    "curtain", "floor", "boden",   "ground", "ceiling", "decke",
+                                    "roof",  "dach",   "slab",     "cabinet", "shelf", "portrait"};
 constexpr std::array kDoors = {"door", "tuer", "t\xc3\xbcr", "porte", "puerta", "porta_"};
 constexpr std::array kWindows = {"window", "fenster", "fen\xc3\xaatre", "fenetre", "ventana", "finestra", "glass", "glazing"};
-constexpr std::array kWalls = {"wall", "wand", "w\xc3\xa4nde", "waende", "mauer", "mur_", "murs", "pared", "muro", "parete", "partition", "column", "pillar"};
+constexpr std::array kWalls = {"wall",  "wand", "w\xc3\xa4nde", "waende",    "mauer",  "mur_",  "murs",
+                               "pared", "muro", "parete",       "partition", "column", "pillar"};
 
 template <size_t N>
 bool HasAny(const std::string& name, const std::array<const char*, N>& words) {

@@ -19,8 +19,8 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kNamedShare = 0.4;   // of the upright area in objects that are named walls: then these are the walls
-constexpr double kSkin_m = 0.02;      // triangles this close to a wall's box are its faces
+constexpr double kNamedShare = 0.4;  // of the upright area in objects that are named walls: then these are the walls
+constexpr double kSkin_m = 0.02;     // triangles this close to a wall's box are its faces
 constexpr double kFloorSlack_m = 0.15, kLevel = 0.9;
 constexpr double kMaxDoorSill_m = 0.15, kMinDoorHeight_m = 1.6, kMinDoorWidth_m = 0.4;
 constexpr double kMaxStep_m = 0.3, kMaxSteppedDoor_m = 1.6;
@@ -43,7 +43,8 @@ bool IsPassage(const WallVoid& v, double floor_z_m) {
 
 class Planner {
  public:
-  Planner(const MeshScene& scene, const MeshOptions& options, DiagnosticSink& sink) : objects_(scene.objects), options_(options), sink_(sink) {}
+  Planner(const MeshScene& scene, const MeshOptions& options, DiagnosticSink& sink)
+      : objects_(scene.objects), options_(options), sink_(sink) {}
 
   PlanIr Run() {
     ChooseWallObjects();
@@ -94,7 +95,8 @@ class Planner {
     std::vector<uint32_t> group_of(wall_objects_.size(), kPool);
     if (wall_objects_.size() > 1) {
       for (uint32_t i = 0; i < group_of.size(); ++i) group_of[i] = i + 1;
-      const auto alone = FindWalls(directions_, WithoutSheets(FindBands(directions_, stack, group_of, facing, options_)), breaks, range, options_);
+      const auto alone =
+          FindWalls(directions_, WithoutSheets(FindBands(directions_, stack, group_of, facing, options_)), breaks, range, options_);
       std::set<uint32_t> able;
       for (const WallPiece& p : alone) {
         if (p.closed_gaps == 0 && !p.parapet) able.insert(p.group);
@@ -131,8 +133,9 @@ class Planner {
   }
 
   size_t PieceOf(const StoreyWalls& storey, const Solid& solid, const Eigen::Vector3i& t, uint32_t group) const {
-    const Vector3d middle =
-        (solid.vertices[static_cast<size_t>(t[0])] + solid.vertices[static_cast<size_t>(t[1])] + solid.vertices[static_cast<size_t>(t[2])]) / 3;
+    const Vector3d middle = (solid.vertices[static_cast<size_t>(t[0])] + solid.vertices[static_cast<size_t>(t[1])] +
+                             solid.vertices[static_cast<size_t>(t[2])]) /
+                            3;
     size_t best = storey.pieces.size();
     for (size_t p = 0; p < storey.pieces.size(); ++p) {
       const WallPiece& piece = storey.pieces[p];
@@ -258,16 +261,18 @@ class Planner {
     const Vector2d at = d.At(0.5 * (piece.span.s0_m + piece.span.s1_m), 0.5 * (piece.c0_m + piece.c1_m));
     if (piece.sheet) {
       sink_.Emit(DiagnosticKind::kMeshWallOfOneFace, location,
-                 fmt::format("the wall around ({:.2f}, {:.2f}) has one face only; it is taken to be {:.2f} m thick", at.x(), at.y(), piece.thickness_m()));
+                 fmt::format("the wall around ({:.2f}, {:.2f}) has one face only; it is taken to be {:.2f} m thick", at.x(), at.y(),
+                             piece.thickness_m()));
     }
     if (piece.closed_gaps > 0) {
       sink_.Emit(DiagnosticKind::kMeshGapClosed, location,
-                 fmt::format("{} gap(s) of full height in the line of the wall around ({:.2f}, {:.2f}) are taken for doorways", piece.closed_gaps, at.x(),
-                             at.y()));
+                 fmt::format("{} gap(s) of full height in the line of the wall around ({:.2f}, {:.2f}) are taken for doorways",
+                             piece.closed_gaps, at.x(), at.y()));
     }
     if (piece.parapet) {
       sink_.Emit(DiagnosticKind::kMeshParapet, location,
-                 fmt::format("the wall around ({:.2f}, {:.2f}) is low; it bounds rooms as if it reached the height of the section", at.x(), at.y()));
+                 fmt::format("the wall around ({:.2f}, {:.2f}) is low; it bounds rooms as if it reached the height of the section", at.x(),
+                             at.y()));
     }
   }
 

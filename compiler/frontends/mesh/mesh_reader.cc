@@ -1,12 +1,12 @@
 #include "compiler/frontends/mesh/mesh_reader.h"
 
+#include <assimp/DefaultIOSystem.h>
+#include <assimp/MemoryIOWrapper.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <fmt/format.h>
 
-#include <assimp/DefaultIOSystem.h>
 #include <assimp/Importer.hpp>
-#include <assimp/MemoryIOWrapper.h>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
@@ -52,7 +52,8 @@ class Flattener {
 
   Expected<std::vector<MeshObject>> Run() {
     if (!Add(*scene_.mRootNode, aiMatrix4x4(), 0)) {
-      return Fail(ErrorCode::kFileTooLarge, fmt::format("it has more than {} triangles or nodes nested deeper than {}", max_triangles_, kMaxDepth));
+      return Fail(ErrorCode::kFileTooLarge,
+                  fmt::format("it has more than {} triangles or nodes nested deeper than {}", max_triangles_, kMaxDepth));
     }
     return std::move(out_);
   }

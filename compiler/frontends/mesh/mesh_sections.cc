@@ -13,13 +13,13 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kUpright = 0.1;             // of the normal's z: six degrees off the vertical
-constexpr double kBin_rad = 0.001;           // of the histogram of directions
+constexpr double kUpright = 0.1;              // of the normal's z: six degrees off the vertical
+constexpr double kBin_rad = 0.001;            // of the histogram of directions
 constexpr double kSameDirection_rad = 0.005;  // faces within it are parallel
-constexpr double kWeld_m = 0.003;            // ends of faces closer than this meet
-constexpr double kCap_m = 0.01;              // from the end of a wall to the face that closes it
+constexpr double kWeld_m = 0.003;             // ends of faces closer than this meet
+constexpr double kCap_m = 0.01;               // from the end of a wall to the face that closes it
 constexpr double kCovered = 0.9;
-constexpr double kMaxWarp = 4;               // tolerances between the ends of a face that is not quite straight
+constexpr double kMaxWarp = 4;  // tolerances between the ends of a face that is not quite straight
 
 struct Mark {
   double c_m = 0, s0_m = 0, s1_m = 0;
@@ -72,7 +72,10 @@ std::vector<double> NumberLines(std::vector<Mark>& marks, double tolerance_m) {
   for (size_t i = 0; i < sorted.size();) {
     size_t end = i;
     double length_m = 0, half_m = 0;
-    for (; end < sorted.size() && (end == i || sorted[end]->c_m <= sorted[end - 1]->c_m + tolerance_m) && sorted[end]->c_m <= sorted[i]->c_m + kMaxWarp * tolerance_m; ++end) length_m += sorted[end]->s1_m - sorted[end]->s0_m;
+    for (; end < sorted.size() && (end == i || sorted[end]->c_m <= sorted[end - 1]->c_m + tolerance_m) &&
+           sorted[end]->c_m <= sorted[i]->c_m + kMaxWarp * tolerance_m;
+         ++end)
+      length_m += sorted[end]->s1_m - sorted[end]->s0_m;
     size_t middle = i;
     for (; middle + 1 < end && (half_m += sorted[middle]->s1_m - sorted[middle]->s0_m) < 0.5 * length_m; ++middle) {
     }
@@ -159,7 +162,8 @@ class Bundle {
       depth = 0;
     };
     for (const Active& a : lines) {
-      const int entering = facing_ == Facing::kInward ? a.leaving : a.entering, leaving = facing_ == Facing::kInward ? a.entering : a.leaving;
+      const int entering = facing_ == Facing::kInward ? a.leaving : a.entering,
+                leaving = facing_ == Facing::kInward ? a.entering : a.leaving;
       if (depth > 0) give_up(a.line);
       const bool was_free = depth == 0;
       if (was_free && entering > 0) start = a.line;
@@ -380,8 +384,8 @@ Facing FindFacing(const std::vector<FaceDirection>& directions, const SectionSta
   return Facing::kUnknown;
 }
 
-std::vector<Band> FindBands(const std::vector<FaceDirection>& directions, const SectionStack& stack,
-                            const std::vector<uint32_t>& group_of, Facing facing, const MeshOptions& options) {
+std::vector<Band> FindBands(const std::vector<FaceDirection>& directions, const SectionStack& stack, const std::vector<uint32_t>& group_of,
+                            Facing facing, const MeshOptions& options) {
   std::map<std::pair<size_t, uint32_t>, Bundle> bundles;
   for (size_t k = 0; k < stack.heights_m.size(); ++k) {
     for (const FaceSegment& f : stack.segments[k]) {

@@ -1,5 +1,5 @@
-// Sections of a mesh as lines: upright faces grouped to vertical planes by direction and offset, with the stretches that each covers at each
-// height, and the pairs of faces that are the two sides of a wall.
+// Sections of a mesh as lines: upright faces grouped to vertical planes by direction and offset, with the stretches that each covers at
+// each height, and the pairs of faces that are the two sides of a wall.
 #pragma once
 
 #include <Eigen/Core>
@@ -46,7 +46,7 @@ struct Band {
 enum class Facing : uint8_t { kOutward, kInward, kUnknown };
 
 struct SectionStack {
-  std::vector<double> heights_m;                    // of the cuts
+  std::vector<double> heights_m;                   // of the cuts
   std::vector<std::vector<FaceSegment>> segments;  // by height
 };
 

@@ -10,15 +10,15 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kWeld_m = 0.005;            // places along a wall closer than this are one
-constexpr double kReference_m = 2.0;         // what stands from the floor to here is a wall, whatever is above
-constexpr double kCoreShare = 0.85;          // ... but for this much of it
-constexpr double kMaxFoot_m = 0.15;          // a wall may begin this far above the floor
-constexpr double kMaxOpening_m = 8.0;        // wider ones under a lintel or over a sill part nothing
-constexpr double kMaxSpannedDoor_m = 1.5;    // a lintel between flanks, without any wall beside the door
+constexpr double kWeld_m = 0.005;          // places along a wall closer than this are one
+constexpr double kReference_m = 2.0;       // what stands from the floor to here is a wall, whatever is above
+constexpr double kCoreShare = 0.85;        // ... but for this much of it
+constexpr double kMaxFoot_m = 0.15;        // a wall may begin this far above the floor
+constexpr double kMaxOpening_m = 8.0;      // wider ones under a lintel or over a sill part nothing
+constexpr double kMaxSpannedDoor_m = 1.5;  // a lintel between flanks, without any wall beside the door
 constexpr double kTouch_m = 0.05;
-constexpr double kSameLine_m = 0.03;         // faces of walls in one line
-constexpr double kMinGap_m = 0.05;           // smaller ones are bridged by the passes
+constexpr double kSameLine_m = 0.03;  // faces of walls in one line
+constexpr double kMinGap_m = 0.05;    // smaller ones are bridged by the passes
 constexpr double kMinDoorGap_m = 0.5;
 constexpr double kMinSheet_m = 0.5, kMinLength_m = 0.05;
 constexpr double kMaxParapetThickness_m = 0.35;
@@ -32,7 +32,7 @@ enum class State : uint8_t { kEmpty, kPartial, kCore };
 // A band over its length and height, cell by cell.
 struct Grid {
   const Band* band = nullptr;
-  std::vector<double> s_m;                // one more than columns
+  std::vector<double> s_m;               // one more than columns
   std::vector<std::vector<char>> solid;  // by column and slice
   std::vector<State> state;
   std::vector<double> low_m;  // how high the column stands from the floor without a gap
@@ -186,7 +186,8 @@ class WallFinder {
     std::vector<WallVoid> merged;
     for (const WallVoid& v : voids) {
       const auto left = std::find_if(merged.begin(), merged.end(), [&](const WallVoid& m) {
-        return std::abs(m.span.s1_m - v.span.s0_m) <= kWeld_m && std::abs(m.z0_m - v.z0_m) <= kTouch_m && std::abs(m.z1_m - v.z1_m) <= kTouch_m;
+        return std::abs(m.span.s1_m - v.span.s0_m) <= kWeld_m && std::abs(m.z0_m - v.z0_m) <= kTouch_m &&
+               std::abs(m.z1_m - v.z1_m) <= kTouch_m;
       });
       if (left != merged.end())
         left->span.s1_m = v.span.s1_m;
@@ -278,7 +279,8 @@ class WallFinder {
         if (common_m < kCavityShare * p.length_m()) continue;
         const double above_m = q.c0_m - p.c1_m, below_m = p.c0_m - q.c1_m;
         const double gap_m = std::max(above_m, below_m);
-        if (gap_m <= 0 || gap_m > kMaxCavity_m || p.thickness_m() + gap_m > 2 * options_.max_wall_thickness_m || IsCrossed(p, q, gap_m)) continue;
+        if (gap_m <= 0 || gap_m > kMaxCavity_m || p.thickness_m() + gap_m > 2 * options_.max_wall_thickness_m || IsCrossed(p, q, gap_m))
+          continue;
         (above_m > 0 ? p.c1_m : p.c0_m) = above_m > 0 ? q.c0_m : q.c1_m;
       }
     }
@@ -412,7 +414,8 @@ class WallFinder {
     if (piece.length_m() < kMinVoid_m) return std::nullopt;
     const Touches touches = TouchesOf(piece, pieces_);
     if (touches.any == 3 && piece.length_m() <= (touches.in_line != 0 ? kMaxOpening_m : kMaxSpannedDoor_m)) return piece;
-    const bool low = HasSill(run, options_.min_parapet_height_m) && piece.thickness_m() <= kMaxParapetThickness_m && piece.length_m() >= kMinSheet_m;
+    const bool low =
+        HasSill(run, options_.min_parapet_height_m) && piece.thickness_m() <= kMaxParapetThickness_m && piece.length_m() >= kMinSheet_m;
     if (touches.any != 0 && low) return MakePiece(run, true);
     return std::nullopt;
   }
@@ -421,7 +424,8 @@ class WallFinder {
   bool HasLintel(const Grid& g, const Columns& run) const {
     for (size_t j = run.first; j <= run.last; ++j) {
       bool lintel = false;
-      for (size_t k = 0; k < g.solid[j].size(); ++k) lintel |= g.solid[j][k] != 0 && breaks_m_[k] > range_.floor_z_m + options_.section_height_m;
+      for (size_t k = 0; k < g.solid[j].size(); ++k)
+        lintel |= g.solid[j][k] != 0 && breaks_m_[k] > range_.floor_z_m + options_.section_height_m;
       if (!lintel) return false;
     }
     return true;
@@ -510,7 +514,8 @@ class WallFinder {
       std::erase_if(p.voids, [&](const WallVoid& v) {
         for (const double u : {0.1, 0.5, 0.9}) {
           const Vector2d at = At(p, v.span.s0_m + u * (v.span.s1_m - v.span.s0_m), 0.5 * (p.c0_m + p.c1_m));
-          if (std::none_of(pieces_.begin(), pieces_.end(), [&](const WallPiece& q) { return &p != &q && IsSolidAt(q, at, 0.5 * (v.z0_m + v.z1_m)); }))
+          if (std::none_of(pieces_.begin(), pieces_.end(),
+                           [&](const WallPiece& q) { return &p != &q && IsSolidAt(q, at, 0.5 * (v.z0_m + v.z1_m)); }))
             return false;
         }
         return true;
@@ -528,8 +533,8 @@ class WallFinder {
 
   void MarkColumns() {
     for (WallPiece& p : pieces_) {
-      p.column = !p.sheet && !p.parapet && p.closed_gaps == 0 && p.length_m() <= kMaxColumn_m && p.length_m() <= 3 * p.thickness_m() && IsFree(p, 1) &&
-                 IsFree(p, -1) && !IsCorner(p, 1) && !IsCorner(p, -1);
+      p.column = !p.sheet && !p.parapet && p.closed_gaps == 0 && p.length_m() <= kMaxColumn_m && p.length_m() <= 3 * p.thickness_m() &&
+                 IsFree(p, 1) && IsFree(p, -1) && !IsCorner(p, 1) && !IsCorner(p, -1);
     }
   }
 

@@ -24,11 +24,11 @@ using Eigen::Vector3d;
 using tinyxml2::XMLElement;
 namespace fs = std::filesystem;
 
-constexpr int kMaxNesting = 12;            // of models and includes in each other
+constexpr int kMaxNesting = 12;  // of models and includes in each other
 constexpr size_t kMaxShapes = 200000;
 constexpr size_t kMaxPoints = 100000;
 constexpr double kMaxLength_m = 1e5;
-constexpr double kMaxPlane_m = 200;        // planes stand for the ground; they reach no farther than a site
+constexpr double kMaxPlane_m = 200;  // planes stand for the ground; they reach no farther than a site
 
 Isometry3d Pose(const Vector3d& t, const Vector3d& rpy) {
   return Eigen::Translation3d(t) * Eigen::AngleAxisd(rpy.z(), Vector3d::UnitZ()) * Eigen::AngleAxisd(rpy.y(), Vector3d::UnitY()) *
@@ -53,7 +53,8 @@ class WorldReader {
     tinyxml2::XMLDocument document;
     if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
       Emit(document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED ? DiagnosticKind::kXmlTooDeep : DiagnosticKind::kXmlSyntax,
-           document.ErrorLineNum(), path, fmt::format("`{}` is no XML that can be read: {}", path.filename().string(), document.ErrorName()));
+           document.ErrorLineNum(), path,
+           fmt::format("`{}` is no XML that can be read: {}", path.filename().string(), document.ErrorName()));
       return false;
     }
     const XMLElement* sdf = document.FirstChildElement("sdf");
@@ -100,7 +101,8 @@ class WorldReader {
     std::istringstream in(e->GetText() == nullptr ? "" : e->GetText());
     in.imbue(std::locale::classic());
     for (double v = 0; in >> v;) out.push_back(v);
-    const bool fine = out.size() == count && in.eof() && std::all_of(out.begin(), out.end(), [](double v) { return std::abs(v) < kMaxLength_m; });
+    const bool fine =
+        out.size() == count && in.eof() && std::all_of(out.begin(), out.end(), [](double v) { return std::abs(v) < kMaxLength_m; });
     if (fine) return out;
     Emit(DiagnosticKind::kXmlBadValue, *e, fmt::format("<{}> is not {} finite numbers; it is left out", e->Name(), count));
     return {};
@@ -110,7 +112,8 @@ class WorldReader {
     const XMLElement* pose = e.FirstChildElement("pose");
     if (pose == nullptr || pose->GetText() == nullptr) return Isometry3d::Identity();
     if (const char* frame = FrameOf(*pose); frame != nullptr && frame[0] != '\0' && std::string_view(frame) != "world") {
-      Emit(DiagnosticKind::kXmlUnsupported, *pose, fmt::format("the pose is relative to `{}`; it is read as relative to its parent", frame));
+      Emit(DiagnosticKind::kXmlUnsupported, *pose,
+           fmt::format("the pose is relative to `{}`; it is read as relative to its parent", frame));
     }
     const std::vector<double> v = Numbers(pose, 6);
     return v.empty() ? Isometry3d::Identity() : Pose({v[0], v[1], v[2]}, {v[3], v[4], v[5]});
@@ -146,7 +149,8 @@ class WorldReader {
     std::error_code error;
     if (fs::is_directory(file, error)) file /= "model.sdf";
     if (depth > kMaxNesting || std::find(open_.begin(), open_.end(), file) != open_.end()) {
-      Emit(DiagnosticKind::kXmlTooDeep, include, fmt::format("`{}` includes itself, or models are nested deeper than {}", uri->GetText(), kMaxNesting));
+      Emit(DiagnosticKind::kXmlTooDeep, include,
+           fmt::format("`{}` includes itself, or models are nested deeper than {}", uri->GetText(), kMaxNesting));
       return;
     }
     const XMLElement* name = include.FirstChildElement("name");
@@ -164,9 +168,11 @@ class WorldReader {
     const FoundFile found = files_.Find(uri.GetText(), folder_);
     if (found.path) return found.path;
     if (found.fault == UriFault::kOutside)
-      Emit(DiagnosticKind::kIncludeOutside, uri, fmt::format("`{}` lies on a network or above the world's folder; it is left out", uri.GetText()));
+      Emit(DiagnosticKind::kIncludeOutside, uri,
+           fmt::format("`{}` lies on a network or above the world's folder; it is left out", uri.GetText()));
     else
-      Emit(DiagnosticKind::kIncludeMissing, uri, fmt::format("`{}` is not in the world's folder nor on the model path; it is left out", uri.GetText()));
+      Emit(DiagnosticKind::kIncludeMissing, uri,
+           fmt::format("`{}` is not in the world's folder nor on the model path; it is left out", uri.GetText()));
     return std::nullopt;
   }
 
@@ -233,7 +239,8 @@ class WorldReader {
     for (const XMLElement* line = geometry.FirstChildElement("polyline"); line != nullptr; line = line->NextSiblingElement("polyline")) {
       if (const auto h = Numbers(line->FirstChildElement("height"), 1); !h.empty()) height_m = h[0];
       Ring2 ring;
-      for (const XMLElement* p = line->FirstChildElement("point"); p != nullptr && ++points < kMaxPoints; p = p->NextSiblingElement("point")) {
+      for (const XMLElement* p = line->FirstChildElement("point"); p != nullptr && ++points < kMaxPoints;
+           p = p->NextSiblingElement("point")) {
         if (const auto v = Numbers(p, 2); !v.empty()) ring.emplace_back(v[0], v[1]);
       }
       DropRepeatedPoints(1e-6, ring);
@@ -264,7 +271,8 @@ class WorldReader {
     Eigen::Affine3d T = Eigen::Affine3d::Identity();
     if (!scale.empty()) T.linear() = Vector3d(scale[0], scale[1], scale[2]).asDiagonal();
     if (mesh->up == UpAxis::kY) T = T * Eigen::AngleAxisd(0.5 * std::numbers::pi, Vector3d::UnitX());
-    const bool finite = std::all_of(out.vertices.begin(), out.vertices.end(), [](const Vector3d& v) { return v.allFinite() && v.cwiseAbs().maxCoeff() < kMaxLength_m; });
+    const bool finite = std::all_of(out.vertices.begin(), out.vertices.end(),
+                                    [](const Vector3d& v) { return v.allFinite() && v.cwiseAbs().maxCoeff() < kMaxLength_m; });
     if (!finite) {
       Emit(DiagnosticKind::kXmlBadValue, e, fmt::format("`{}` has coordinates that are no numbers; it is left out", uri->GetText()));
       return {};
@@ -276,7 +284,7 @@ class WorldReader {
   const MeshOptions& options_;
   DiagnosticSink& sink_;
   ModelFiles files_;
-  fs::path folder_;              // of the document that is read
+  fs::path folder_;             // of the document that is read
   std::vector<fs::path> open_;  // documents that include each other down to here
   size_t shapes_ = 0;
 };

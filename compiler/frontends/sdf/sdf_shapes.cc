@@ -41,7 +41,8 @@ Solid MakePlane(const Eigen::Vector3d& normal, const Eigen::Vector2d& size_m) {
   const Eigen::Quaterniond turn = Eigen::Quaterniond::FromTwoVectors(Eigen::Vector3d::UnitZ(), normal);
   const double x = 0.5 * size_m.x(), y = 0.5 * size_m.y();
   Solid out;
-  out.vertices = {turn * Eigen::Vector3d(-x, -y, 0), turn * Eigen::Vector3d(x, -y, 0), turn * Eigen::Vector3d(x, y, 0), turn * Eigen::Vector3d(-x, y, 0)};
+  out.vertices = {turn * Eigen::Vector3d(-x, -y, 0), turn * Eigen::Vector3d(x, -y, 0), turn * Eigen::Vector3d(x, y, 0),
+                  turn * Eigen::Vector3d(-x, y, 0)};
   out.triangles = {{0, 1, 2}, {0, 2, 3}};
   return out;
 }

@@ -14,6 +14,8 @@
 
 #include "compiler/emit/emit.h"
 #include "compiler/frontends/ifc/ifc_frontend.h"
+#include "compiler/frontends/mesh/mesh_frontend.h"
+#include "compiler/frontends/sdf/sdf_frontend.h"
 #include "compiler/passes/alias_forecast.h"
 #include "compiler/passes/build_agraph.h"
 #include "compiler/source/source.h"
@@ -35,11 +37,13 @@ PassOptions PassOptionsFrom(const CompileOptions& options) {
 
 // As they stand in the file: what the result depends on.
 std::vector<Option> Recorded(const CompileOptions& options) {
-  return {{"section_height_m", fmt::format("{}", options.section_height_m)},
+  std::vector<Option> out = {{"section_height_m", fmt::format("{}", options.section_height_m)},
           {"snap_radius_m", fmt::format("{}", options.snap_radius_m)},
           {"max_gap_m", fmt::format("{}", options.max_gap_m)},
           {"divide_open_plans", options.divide_open_plans ? "true" : "false"},
           {"min_room_area_m2", fmt::format("{}", options.min_room_area_m2)}};
+  if (!options.up.empty()) out.push_back({"up", options.up});
+  return out;
 }
 
 void AddDrawingOptions(const DxfOptions& options, std::vector<Option>& out) {
@@ -85,12 +89,29 @@ std::optional<PlanIr> ReadDrawings(std::vector<StoreyDrawing> storeys, const Dxf
   return plan;
 }
 
+DxfOptions DxfOptionsFrom(const CompileOptions& options) {
+  DxfOptions out = options.dxf;
+  if (!options.unit.empty()) out.unit = options.unit;
+  return out;
+}
+
+MeshOptions MeshOptionsFrom(const CompileOptions& options) {
+  MeshOptions out;
+  out.unit = options.unit;
+  out.up = options.up;
+  out.section_height_m = options.section_height_m;
+  out.model_path = options.model_path;
+  return out;
+}
+
 std::optional<PlanIr> ReadPlan(const std::string& path, const CompileOptions& options, DiagnosticSink& sink) {
   const std::optional<Source> source = LoadSource(path, sink);
   if (!source || !IsSupported(*source, sink)) return std::nullopt;
+  if (source->format == SourceFormat::kSdf) return ReadSdf(*source, sink, MeshOptionsFrom(options));
+  if (IsMesh(source->format)) return ReadMesh(*source, sink, MeshOptionsFrom(options));
   if (source->format != SourceFormat::kDxf) return ReadIfc(*source, sink);
   PlanIr plan;
-  if (!AppendDxf(*source, {{}, "Storey", {}, 0.0}, options.dxf, plan, sink)) return std::nullopt;
+  if (!AppendDxf(*source, {{}, "Storey", {}, 0.0}, DxfOptionsFrom(options), plan, sink)) return std::nullopt;
   plan.source_path = source->path;
   plan.source_format = "DXF";
   plan.source_sha256 = source->sha256;
@@ -135,7 +156,8 @@ std::optional<AGraph> Run(std::optional<PlanIr> plan, const CompileOptions& opti
   ForecastAliases({}, graph);
   AddLocated(*plan, ValidateGraph(graph), sink);
   std::vector<Option> recorded = Recorded(options);
-  if (plan->source_format == "DXF") AddDrawingOptions(options.dxf, recorded);
+  if (plan->source_format == "DXF") AddDrawingOptions(DxfOptionsFrom(options), recorded);
+  else if (!options.unit.empty()) recorded.push_back({"unit", options.unit});
   EmitProvenance(*plan, recorded, sink, graph);
   return graph;
 }
@@ -148,6 +170,7 @@ std::string CompileOptions::Check() const {
   if (!(snap_radius_m > 0 && snap_radius_m <= 0.05))
     return fmt::format("CompileOptions.snap_radius_m = {}; must be in (0, 0.05]", snap_radius_m);
   if (!(max_gap_m >= 0 && max_gap_m <= 0.5)) return fmt::format("CompileOptions.max_gap_m = {}; must be in [0, 0.5]", max_gap_m);
+  if (const std::string wrong = MeshOptionsFrom(*this).Check(); !wrong.empty()) return wrong;
   if (!(min_room_area_m2 >= 0)) return fmt::format("CompileOptions.min_room_area_m2 = {}; must not be negative", min_room_area_m2);
   return dxf.Check();
 }
@@ -186,7 +209,7 @@ CompileResult Compile(const std::string& path, const CompileOptions& options) {
 
 CompileResult CompileStoreys(const std::vector<StoreyDrawing>& storeys, const CompileOptions& options) {
   const std::string path = storeys.empty() ? std::string() : storeys.front().path;
-  return CompileFrom(path, options, [&](DiagnosticSink& sink) { return ReadDrawings(storeys, options.dxf, sink); });
+  return CompileFrom(path, options, [&](DiagnosticSink& sink) { return ReadDrawings(storeys, DxfOptionsFrom(options), sink); });
 }
 
 }  // namespace plumb::compiler

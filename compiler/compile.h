@@ -29,6 +29,9 @@ struct CompileOptions {
   double min_room_area_m2 = 0.5;          // smaller faces between walls are shafts or gaps, not rooms
   double max_gap_m = 0.2;                 // walls closer than this are taken to meet where that keeps two rooms apart
   bool divide_open_plans = true;          // along the source's spaces where no walls do; false: one room
+  std::string unit;                       // of drawings and meshes: m, cm, mm, in or ft; empty: as stated by the file or seen in its walls
+  std::string up;                         // of meshes: x, y or z; empty: as stated by the file or seen in its walls
+  std::vector<std::string> model_path;    // of Gazebo worlds: folders besides the world's own that hold included models
   bool verify_stages = kVerifyByDefault;  // check the invariants of every intermediate form; a fault is an InternalError
   DxfOptions dxf;                         // for drawings
   // Empty if every field is valid; else names the field, its value and the rule.

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 #include <limits>
 #include <utility>
 
@@ -29,11 +31,46 @@ bool LooksLikeDxf(std::string_view head) {
   return section != std::string_view::npos && head.find_first_of("\r\n") < section;
 }
 
+// The first words of lines that only OBJ files begin with; a photograph has none.
+bool LooksLikeObj(std::string_view head) {
+  size_t known = 0;
+  bool vertex = false;
+  while (!head.empty()) {
+    const size_t end = std::min(head.find('\n'), head.size());
+    const bool whole = end < head.size();
+    const std::string_view line = SkipMarkAndSpace(head.substr(0, end));
+    head.remove_prefix(std::min(end + 1, head.size()));
+    if (line.empty() || !whole || line.starts_with('#')) continue;
+    const std::string_view word = line.substr(0, line.find_first_of(" \t\r"));
+    constexpr std::array kWords = {"v", "vn", "vt", "vp", "f", "l", "p", "o", "g", "s", "usemtl", "mtllib", "usemap", "mg"};
+    if (std::find(kWords.begin(), kWords.end(), word) == kWords.end()) return false;
+    vertex |= word == "v";
+    ++known;
+  }
+  return vertex || known >= 2;
+}
+
+// The text form says `solid` and `facet`; the binary one has 80 bytes of anything, the number of triangles, 50 bytes for each.
+bool LooksLikeStl(std::string_view bytes, std::string_view head) {
+  if (head.starts_with("solid") && head.find("facet") != std::string_view::npos) return true;
+  constexpr size_t kHeader = 84, kTriangle = 50;
+  if (bytes.size() < kHeader) return false;
+  uint32_t count = 0;
+  std::memcpy(&count, bytes.data() + 80, sizeof count);
+  return bytes.size() == kHeader + kTriangle * size_t{count};
+}
+
+SourceFormat XmlFormat(std::string_view head) {
+  if (head.find("<COLLADA") != std::string_view::npos) return SourceFormat::kCollada;
+  if (head.find("<sdf") != std::string_view::npos) return SourceFormat::kSdf;
+  return SourceFormat::kXml;
+}
+
 const char* HintFor(SourceFormat format) {
   switch (format) {
     case SourceFormat::kDwg: return "save it as DXF in the CAD program, or convert it with `dwg2dxf` (LibreDWG) or the ODA File Converter";
     case SourceFormat::kZip: return "unpack the archive and give the plan in it";
-    default: return "export the plan as IFC (STEP, .ifc) or DXF";
+    default: return "export the plan as IFC (STEP, .ifc), DXF, or a mesh (OBJ, PLY, STL, glTF, COLLADA)";
   }
 }
 
@@ -57,7 +94,10 @@ SourceFormat DetectFormat(std::string_view bytes) {
   if (head.starts_with("ply\n") || head.starts_with("ply\r")) return SourceFormat::kPly;
   if (head.starts_with("glTF")) return SourceFormat::kGltf;
   if (LooksLikeDxf(head)) return SourceFormat::kDxf;
-  if (head.starts_with("<")) return SourceFormat::kXml;
+  if (head.starts_with("<")) return XmlFormat(head);
+  if (head.starts_with("{") && head.find("\"asset\"") != std::string_view::npos) return SourceFormat::kGltfJson;
+  if (LooksLikeStl(bytes, head)) return SourceFormat::kStl;
+  if (LooksLikeObj(head)) return SourceFormat::kObj;
   return SourceFormat::kUnknown;
 }
 
@@ -69,11 +109,31 @@ std::string_view FormatName(SourceFormat format) {
     case SourceFormat::kXml: return "an XML document";
     case SourceFormat::kZip: return "a ZIP archive";
     case SourceFormat::kPly: return "a PLY mesh";
-    case SourceFormat::kGltf: return "a glTF mesh";
+    case SourceFormat::kGltf:
+    case SourceFormat::kGltfJson: return "a glTF mesh";
+    case SourceFormat::kObj: return "an OBJ mesh";
+    case SourceFormat::kStl: return "an STL mesh";
+    case SourceFormat::kCollada: return "a COLLADA mesh";
+    case SourceFormat::kSdf: return "a Gazebo world or model (SDF)";
     case SourceFormat::kUnknown: break;
   }
   return "of no known format";
 }
+
+std::string_view SchemaName(SourceFormat format) {
+  switch (format) {
+    case SourceFormat::kPly: return "PLY";
+    case SourceFormat::kGltf:
+    case SourceFormat::kGltfJson: return "glTF";
+    case SourceFormat::kObj: return "OBJ";
+    case SourceFormat::kStl: return "STL";
+    case SourceFormat::kCollada: return "COLLADA";
+    case SourceFormat::kSdf: return "SDF";
+    default: return "";
+  }
+}
+
+bool IsMesh(SourceFormat format) { return !SchemaName(format).empty() && format != SourceFormat::kSdf; }
 
 std::optional<Source> LoadSource(const std::string& path, DiagnosticSink& diagnostics, const SourceOptions& options) {
   if (const std::string problem = options.Check(); !problem.empty()) {
@@ -108,11 +168,11 @@ std::optional<Source> LoadSource(const std::string& path, DiagnosticSink& diagno
 }
 
 bool IsSupported(const Source& source, DiagnosticSink& diagnostics) {
-  if (source.format == SourceFormat::kIfcStep || source.format == SourceFormat::kDxf) return true;
+  if (source.format == SourceFormat::kIfcStep || source.format == SourceFormat::kDxf || source.format == SourceFormat::kSdf || IsMesh(source.format)) return true;
   diagnostics.Emit(DiagnosticKind::kUnknownFormat, {},
                    source.bytes.empty()
                        ? fmt::format("`{}` is empty", source.path)
-                       : fmt::format("`{}` is {}; a plan is read as IFC in STEP syntax or as a DXF drawing", source.path, FormatName(source.format)),
+                       : fmt::format("`{}` is {}; a plan is read as IFC in STEP syntax, as a DXF drawing, as a mesh or as SDF", source.path, FormatName(source.format)),
                    HintFor(source.format));
   return false;
 }

@@ -10,7 +10,7 @@
 
 namespace plumb::compiler {
 
-enum class SourceFormat { kUnknown, kIfcStep, kDxf, kDwg, kXml, kZip, kPly, kGltf };
+enum class SourceFormat { kUnknown, kIfcStep, kDxf, kDwg, kXml, kZip, kPly, kGltf, kGltfJson, kObj, kStl, kCollada, kSdf };
 
 struct Source {
   std::string path;
@@ -33,6 +33,9 @@ struct SourceOptions {
 // Told by the first bytes alone, never by the file's name.
 [[nodiscard]] SourceFormat DetectFormat(std::string_view bytes);
 [[nodiscard]] std::string_view FormatName(SourceFormat format);  // "IFC in STEP syntax", for messages
+
+[[nodiscard]] std::string_view SchemaName(SourceFormat format);  // "OBJ", as A-Graphs name their source; for formats with one schema only
+[[nodiscard]] bool IsMesh(SourceFormat format);
 
 // Emits UnknownFormat, with how to go on from there, if no frontend reads `source`.
 [[nodiscard]] bool IsSupported(const Source& source, DiagnosticSink& diagnostics);

@@ -114,9 +114,13 @@ void AddCompileOptions(CLI::App& subcommand, compiler::CompileOptions& options) 
   subcommand.add_option("--snap-radius", options.snap_radius_m, "corners of walls closer than this become one, m");
   subcommand.add_option("--min-room-area", options.min_room_area_m2, "smaller faces between walls are shafts, not rooms, m2");
   subcommand.add_option("--max-gap", options.max_gap_m, "walls closer than this are taken to meet where that keeps two rooms apart, m");
+  subcommand.add_option("--unit", options.unit, "of a drawing or mesh: m, cm, mm, in or ft; else as the file states, if walls and doors then have usual sizes");
+  subcommand.add_option("--up", options.up, "of meshes: x, y or z; else as stated by the file or seen in its walls");
+  subcommand.add_option("--model-path", options.model_path, "of Gazebo worlds: folders besides the world's own that hold included models")
+      ->envname("GAZEBO_MODEL_PATH")
+      ->delimiter(':');
   subcommand.add_option("--divide-open-plans", options.divide_open_plans, "along the plan's spaces where no walls do; else one room");
   compiler::DxfOptions& dxf = options.dxf;
-  subcommand.add_option("--unit", dxf.unit, "of a drawing: mm, cm, m, in or ft; default: as it states, if walls and doors then have usual sizes");
   subcommand.add_option("--layers", dxf.layers, "of a drawing: aia, english, german, french, italian, spanish, none, or a TOML file")->type_name("SET|FILE");
   subcommand.add_option("--sheet", dxf.sheet, "of a drawing with several plans side by side, from 1; 0: all, as storeys");
   subcommand.add_option("--storey-height", dxf.drawing.heights.storey_m, "of a drawing: height of its walls, m");
@@ -134,7 +138,7 @@ void AddCompile(CLI::App& app, Session& session) {
                                 "  plumb compile a.dxf b.dxf --storey EG=a.dxf@0 --storey OG=b.dxf@3.0 -o house.agraph\n"
                                 "Status 1: the A-Graph is written, but has errors in it: in a plan without walls no robot can localize, say.\n"
                                 "Status 2: nothing is written: the file is damaged, too large, of no schema that is read, or has no building in it.");
-  sub->add_option("PLAN", flags->plans, "the plan: IFC as a STEP file, or a DXF drawing; plain, gzipped or in a ZIP archive")->required();
+  sub->add_option("PLAN", flags->plans, "the plan: IFC (STEP), a drawing (DXF), a mesh (OBJ, PLY, STL, glTF, COLLADA) or a Gazebo world (SDF); plain, gzipped or in a ZIP archive")->required();
   sub->add_option("--storey", flags->storeys, "a drawing's storey and the height of its floor, m; once for each")->type_name("NAME=FILE@ELEVATION")->allow_extra_args(false);
   sub->add_option("-o,--output", flags->output, "the A-Graph to write")->required()->type_name("FILE.agraph");
   sub->add_option("--diagnostics-json", flags->diagnostics_json, "write what the compiler has to say about the plan as JSON")

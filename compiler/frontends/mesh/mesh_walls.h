@@ -1,0 +1,41 @@
+// Walls from bands: which stretches of them stand as walls, what openings they have, and which gaps between them are doors and windows.
+#pragma once
+
+#include <vector>
+
+#include "compiler/frontends/mesh/mesh_sections.h"
+
+namespace plumb::compiler {
+
+// A void in a wall.
+struct WallVoid {
+  Span span;
+  double z0_m = 0, z1_m = 0;
+};
+
+// An upright piece of wall: the box over [span] x [c0, c1], z0 to z1, less its voids.
+struct WallPiece {
+  size_t direction = 0;
+  double c0_m = 0, c1_m = 0, z0_m = 0, z1_m = 0;
+  Span span;
+  uint32_t group = 0;
+  bool sheet = false, parapet = false, column = false;
+  size_t closed_gaps = 0;  // gaps with nothing above or below in it
+  std::vector<WallVoid> voids;
+  [[nodiscard]] double thickness_m() const { return c1_m - c0_m; }
+  [[nodiscard]] double length_m() const { return span.s1_m - span.s0_m; }
+  [[nodiscard]] bool Contains(const FaceDirection& d, const Eigen::Vector2d& p, double slack_m) const {
+    const double s = d.S(p), c = d.C(p);
+    return s >= span.s0_m - slack_m && s <= span.s1_m + slack_m && c >= c0_m - slack_m && c <= c1_m + slack_m;
+  }
+};
+
+struct StoreyRange {
+  double floor_z_m = 0, top_z_m = 0;  // top: of what stands on the floor
+};
+
+// `breaks_m`: where the slices of the stack begin and end; one more than heights.
+[[nodiscard]] std::vector<WallPiece> FindWalls(const std::vector<FaceDirection>& directions, const std::vector<Band>& bands,
+                                               const std::vector<double>& breaks_m, const StoreyRange& range, const MeshOptions& options);
+
+}  // namespace plumb::compiler

@@ -180,5 +180,37 @@ TEST_F(Program, CompileLeavesNothingHalfWritten) {
   EXPECT_THAT(Files(), ::testing::ElementsAre("d.json", "house.agraph"));
 }
 
+TEST_F(Program, SimulateKeepsRecordingsThatItDidNotWrite) {
+  const std::string simulate = "simulate house.agraph --duration 1 --max-duration 1 --deviate 0 -q -o mine";
+  fs::create_directories(folder_ / "mine/scans");
+  for (const char* file : {"mine/scans/other.pcd", "mine/odometry.tum"}) {
+    Write(file, "mine");
+    const Outcome refused = Plumb(simulate);
+    EXPECT_EQ(refused.status, 2) << file;
+    EXPECT_THAT(refused.err, HasSubstr("--force"));
+    EXPECT_EQ(Read(file), "mine");
+    fs::remove(folder_ / file);
+  }
+  Write("mine/scans/other.pcd", "mine");
+  EXPECT_EQ(Plumb(simulate + " --force").status, 0);
+  EXPECT_EQ(Plumb(simulate).status, 0) << "its own";
+}
+
+TEST_F(Program, LocalizeSaysAtOnceWhereItCannotWrite) {
+  ASSERT_EQ(Plumb("simulate house.agraph --duration 1 --max-duration 1 --deviate 0 -q -o rec").status, 0);
+  Write("file", "");
+  const Outcome outcome = Plumb("localize house.agraph rec -o file/run");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_THAT(outcome.err, HasSubstr("file/run"));
+  EXPECT_THAT(outcome.err, Not(HasSubstr("localizing")));
+}
+
+TEST_F(Program, CompileDoesNotWriteOverThePlan) {
+  Write("plan.ifc", ReadFileText(std::string(PLUMB_SOURCE_DIR) + "/tests/compile/golden/diagnostics/PL7103.ifc").value());
+  const std::string before = Read("plan.ifc");
+  EXPECT_EQ(Plumb("compile plan.ifc -o plan.ifc").status, 2);
+  EXPECT_EQ(Read("plan.ifc"), before);
+}
+
 }  // namespace
 }  // namespace plumb

@@ -163,9 +163,8 @@ Expected<void> PrepareOutput(const std::string& folder) {
   std::error_code error;
   fs::create_directories(folder, error);
   if (error) return tl::unexpected(Error{ErrorCode::kFileUnwritable, fmt::format("cannot make `{}`: {}", folder, error.message())});
-  const std::string probe = (fs::path(folder) / "run.json").string();
-  fs::remove(probe, error);  // of an earlier run, which this one takes the place of
-  if (auto written = WriteFileAtomically(probe, std::string_view("{}")); !written) return written;
+  const std::string probe = (fs::path(folder) / ".writable").string();
+  if (auto written = WriteFileAtomically(probe, std::string_view()); !written) return written;
   fs::remove(probe, error);
   return {};
 }

@@ -9,7 +9,6 @@
 #include <optional>
 #include <utility>
 
-#include "runtime/sources/recording.h"
 #include "schema/agraph_reader.h"
 #include "tools/plumb/command.h"
 #include "tools/simulate/sensor.h"
@@ -47,16 +46,22 @@ Expected<SimulateOptions> OptionsOf(const SimulateFlags& flags) {
   return options;
 }
 
-bool HoldsARecordingOfOthers(const std::string& folder) {
+// Scans, whatever their names, or an odometry, without the truth that simulations write.
+bool HoldsARecordingOfOthers(const std::filesystem::path& folder) {
   std::error_code error;
-  return !std::filesystem::exists(std::filesystem::path(folder) / "truth.json", error) && runtime::Recording::Open(folder).has_value();
+  if (std::filesystem::exists(folder / "truth.json", error)) return false;
+  if (std::filesystem::exists(folder / "odometry.tum", error)) return true;
+  for (std::filesystem::directory_iterator it(folder / "scans", error), end; !error && it != end; it.increment(error)) {
+    if (it->path().extension() == ".pcd") return true;
+  }
+  return false;
 }
 
 Status RunSimulate(const SimulateFlags& flags, Session& session) {
   const auto options = OptionsOf(flags);
   if (!options) return session.Fail(options.error());
   if (!flags.force && HoldsARecordingOfOthers(flags.output)) {
-    return session.Fail({ErrorCode::kBadOption, fmt::format("`{}` holds scans that no simulation wrote (it has no truth.json); --force replaces them", flags.output)});
+    return session.Fail({ErrorCode::kBadOption, fmt::format("`{}` holds a recording that no simulation wrote (it has no truth.json); --force replaces it", flags.output)});
   }
   const auto plan = ReadAGraphFile(flags.plan);
   if (!plan) return session.Fail(plan.error());
@@ -92,7 +97,7 @@ void AddSimulate(CLI::App& app, Session& session) {
   sub->add_option("--max-duration", o.max_duration_s, "stop after this long wherever the robot is, s");
   sub->add_option("--glass-transmission", o.glass_transmission, "chance that a ray passes a pane");
   sub->add_option("--clutter", o.clutter, "boxes that stand about and are not in the plan");
-  sub->add_flag("--force", flags->force, "replace scans in REC that no simulation wrote");
+  sub->add_flag("--force", flags->force, "replace a recording that no simulation wrote");
   sub->callback([flags, &session] { session.status = RunSimulate(*flags, session); });
 }
 

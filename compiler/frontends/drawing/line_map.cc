@@ -205,7 +205,7 @@ void LineMap::TraceFaces() {
     const Eigen::Vector2d origin = FromPoint(start);
     uint32_t h = start;
     do {
-      face_[h] = static_cast<uint32_t>(loops.size());  // the loop for now
+      face_[h] = static_cast<uint32_t>(loops.size());  // the loop; PlaceHoles() turns it into the face
       twice += Cross(FromPoint(h) - origin, ToPoint(h) - origin);
       h = next_[h];
     } while (h != start);

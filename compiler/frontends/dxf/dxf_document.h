@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "compiler/diagnostics/diagnostic.h"
@@ -38,7 +39,7 @@ struct DxfEntity {
   uint32_t layer = 0;  // in DxfDocument::layers
   uint32_t handle = 0xffffffffu;
   uint32_t line = 0;
-  const char* type = "";
+  std::string_view type;  // one of those that are read
   bool mirrored = false;  // drawn on the back of the plane (extrusion 0 0 -1): x is -x
   std::vector<DxfPath> paths;
   std::vector<DxfText> texts;

@@ -28,7 +28,7 @@ TEST(DxfDocument, EntitiesHaveHandleLayerAndLine) {
   EXPECT_EQ(d.entities[0].handle, 0x21u);
   EXPECT_EQ(d.layers[d.entities[0].layer].name, "A-WALL");
   EXPECT_EQ(d.entities[0].line, 17u);
-  EXPECT_STREQ(d.entities[1].type, "LWPOLYLINE");
+  EXPECT_EQ(d.entities[1].type, "LWPOLYLINE");
   ASSERT_EQ(d.entities[1].paths.size(), 1u);
   EXPECT_TRUE(d.entities[1].paths[0].closed);
   EXPECT_EQ(d.entities[1].paths[0].points.size(), 4u);

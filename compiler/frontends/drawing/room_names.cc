@@ -24,12 +24,13 @@ constexpr auto kMeasureWords = std::to_array<std::string_view>(
 // "3.25 x 4.10", "12'-6\"", "14.3 m2", "+0.00", "BRH 0.90": figures with nothing but units and such words between them. A number alone,
 // or one with a letter, names a room.
 bool IsMeasure(std::string_view text) {
-  size_t digits = 0, marks = 0;
+  size_t digits = 0, marks = 0, dashes = 0;
   std::string word;
-  bool only_units = true, letters = false;  // a letter alone: "H 2.50", but not "B 12"
+  bool only_units = true, letters = false;  // a letter alone: "H 2.50", but not "B 12" or "B-12"
   for (const char c : std::string(text) + ' ') {
     digits += std::isdigit(static_cast<unsigned char>(c)) != 0;
     marks += std::string_view("'\".,+-=/:*").find(c) != std::string_view::npos;
+    dashes += c == '-';
     if (std::isalpha(static_cast<unsigned char>(c)) != 0) {
       word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     } else if (static_cast<unsigned char>(c) < 0x80 && !word.empty()) {  // beyond ASCII: the square of m, diameters
@@ -39,7 +40,7 @@ bool IsMeasure(std::string_view text) {
       word.clear();
     }
   }
-  return digits > 0 && only_units && (marks > 0 || (!letters && text.find(' ') != std::string_view::npos));
+  return digits > 0 && only_units && (marks > (letters ? dashes : 0) || (!letters && text.find(' ') != std::string_view::npos));
 }
 
 template <class Good>

@@ -93,6 +93,7 @@ TEST(ValidateGraph, FindsStoreysWhoseWallsAreAllParallel) {
   AGraph g = test::MakeHouse();
   std::erase_if(g.rooms, [](const Room&) { return true; });
   g.doorways.clear();
+  for (Surface& s : g.surfaces) s.room = RoomId();
   std::erase_if(g.surfaces, [](const Surface& s) { return std::abs(s.normal.x()) > 0.5; });
   EXPECT_EQ(CountOf(g, DiagnosticKind::kWallsInOneDirection), 1u);
   EXPECT_EQ(CountOf(g, DiagnosticKind::kNowhereToLocalize), 1u);

@@ -79,8 +79,8 @@ std::optional<Input> RecordingInput(const std::string& folder, bool with_given) 
 }
 
 std::optional<Odometry::GivenMotion> Given(const Input& input, const Scan& scan) {
-  if (!input.given_at || scan.time_s.empty()) return std::nullopt;
-  const double end_s = scan.stamp_s + *std::max_element(scan.time_s.begin(), scan.time_s.end());
+  if (!input.given_at) return std::nullopt;
+  const double end_s = scan.stamp_s + (scan.time_s.empty() ? 0.0 : *std::max_element(scan.time_s.begin(), scan.time_s.end()));
   const auto start = input.given_at(scan.stamp_s), end = input.given_at(end_s);
   if (!start || !end) return std::nullopt;
   return Odometry::GivenMotion{*start, *end};

@@ -3,7 +3,7 @@
 #include <flatbuffers/flatbuffers.h>
 
 #include "schema/agraph_generated.h"
-#include "schema/checksum.h"
+#include "schema/agraph_layout.h"
 #include "schema/files.h"
 
 namespace plumb {
@@ -135,6 +135,8 @@ auto PackElements(Builder& b, const AGraph& g) {
   });
 }
 
+constexpr uint64_t kNotYet = 1;  // a checksum's place; 0 would be left out
+
 auto PackMesh(Builder& b, const Mesh& mesh) {
   const auto vertices = b.CreateVectorOfStructs<fb::Vec3f>(mesh.vertices.size(), [&](size_t i, fb::Vec3f* out) {
     *out = {mesh.vertices[i].x(), mesh.vertices[i].y(), mesh.vertices[i].z()};
@@ -143,7 +145,7 @@ auto PackMesh(Builder& b, const Mesh& mesh) {
     const Triangle& t = mesh.triangles[i];
     *out = {t.a, t.b, t.c, t.element};
   });
-  return fb::CreateMesh(b, vertices, triangles);
+  return fb::CreateMesh(b, vertices, triangles, kNotYet);
 }
 
 auto PackAliases(Builder& b, const AGraph& g) {
@@ -183,6 +185,8 @@ size_t ExpectedBytes(const AGraph& g) {
 
 void Pack(const AGraph& g, Builder& b) {
   // Sequenced statements: the order of evaluation of call arguments, and so the bytes, would differ between compilers.
+  // The builder puts what comes first at the end: all but the mesh is one piece at the beginning of the file.
+  const auto mesh = PackMesh(b, g.mesh);
   const auto tool_version = Str(b, g.tool_version);
   const auto source_path = Str(b, g.source_path);
   const auto source_format = Str(b, g.source_format);
@@ -197,21 +201,20 @@ void Pack(const AGraph& g, Builder& b) {
   const auto columns = PackColumns(b, g);
   const auto factors = PackFactors(b, g);
   const auto elements = PackElements(b, g);
-  const auto mesh = PackMesh(b, g.mesh);
   const auto aliases = PackAliases(b, g);
   const auto diagnostics = PackDiagnostics(b, g);
   const auto open_boundaries = PackOpenBoundaries(b, g);
   const auto look_alikes = PackLookAlikes(b, g);
   const fb::Vec3 origin = Pack(g.origin);
   const auto true_north = g.true_north_rad ? flatbuffers::Optional<double>(*g.true_north_rad) : flatbuffers::nullopt;
-  constexpr uint64_t kNotYet = 1;  // 0 would be left out
   b.Finish(fb::CreateAGraph(b, kSchemaMajor, kSchemaMinor, tool_version, source_path, source_format, source_sha256, options, &origin, storeys,
                             walls, surfaces, rooms, doorways, windows, columns, factors, elements, mesh, aliases, diagnostics,
                             open_boundaries, look_alikes, true_north, kNotYet),
            fb::AGraphIdentifier());
-  uint8_t* field = flatbuffers::GetMutableRoot<flatbuffers::Table>(b.GetBufferPointer())->GetAddressOf(fb::AGraph::VT_CHECKSUM);
-  const auto hole = static_cast<size_t>(field - b.GetBufferPointer());
-  flatbuffers::WriteScalar(field, ChecksumAround({b.GetBufferPointer(), b.GetSize()}, hole));
+  fb::AGraph* graph = fb::GetMutableAGraph(b.GetBufferPointer());
+  graph->mutable_mesh()->mutate_checksum(MeshChecksum(*graph->mesh()));
+  const std::span<const uint8_t> file(b.GetBufferPointer(), b.GetSize());
+  graph->mutate_checksum(StructureChecksum(*graph, file, ChecksumField(*graph, file)));
 }
 
 }  // namespace

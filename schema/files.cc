@@ -1,6 +1,7 @@
 #include "schema/files.h"
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -9,12 +10,19 @@
 #include <cstring>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
 namespace plumb {
 namespace {
 
 struct Descriptor {
   int fd = -1;
+  explicit Descriptor(int its_fd = -1) : fd(its_fd) {}
+  Descriptor(Descriptor&& other) noexcept : fd(std::exchange(other.fd, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(fd, other.fd);
+    return *this;
+  }
   ~Descriptor() {
     if (fd >= 0) ::close(fd);
   }
@@ -22,25 +30,38 @@ struct Descriptor {
 
 std::string Reason() { return std::strerror(errno); }
 
-// Container: std::string or std::vector<uint8_t>.
-template <class Container>
-Expected<Container> ReadWhole(const std::string& path, size_t max_bytes) {
-  Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
-  if (file.fd < 0) {
+struct OpenedFile {
+  Descriptor file;
+  size_t size = 0;
+};
+
+Expected<OpenedFile> OpenForReading(const std::string& path) {
+  OpenedFile out;
+  out.file.fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (out.file.fd < 0) {
     const ErrorCode code = errno == ENOENT ? ErrorCode::kFileNotFound : ErrorCode::kFileUnreadable;
     return Fail(code, "cannot open `" + path + "`: " + Reason());
   }
   struct stat info {};
-  if (::fstat(file.fd, &info) != 0 || S_ISDIR(info.st_mode)) return Fail(ErrorCode::kFileUnreadable, "`" + path + "` is no file");
-  if (static_cast<size_t>(info.st_size) > max_bytes) {
+  if (::fstat(out.file.fd, &info) != 0 || S_ISDIR(info.st_mode)) return Fail(ErrorCode::kFileUnreadable, "`" + path + "` is no file");
+  out.size = static_cast<size_t>(info.st_size);
+  return out;
+}
+
+// Container: std::string or std::vector<uint8_t>.
+template <class Container>
+Expected<Container> ReadWhole(const std::string& path, size_t max_bytes) {
+  Expected<OpenedFile> opened = OpenForReading(path);
+  if (!opened) return tl::unexpected<Error>(opened.error());
+  if (opened->size > max_bytes) {
     return Fail(ErrorCode::kFileTooLarge,
-                "`" + path + "` has " + std::to_string(info.st_size) + " bytes; at most " + std::to_string(max_bytes) + " are read");
+                "`" + path + "` has " + std::to_string(opened->size) + " bytes; at most " + std::to_string(max_bytes) + " are read");
   }
   Container bytes;
-  bytes.resize(static_cast<size_t>(info.st_size));
+  bytes.resize(opened->size);
   size_t done = 0;
   while (done < bytes.size()) {
-    const ssize_t n = ::read(file.fd, bytes.data() + done, bytes.size() - done);
+    const ssize_t n = ::read(opened->file.fd, bytes.data() + done, bytes.size() - done);
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) return Fail(ErrorCode::kFileUnreadable, "cannot read `" + path + "`: " + Reason());
     if (n == 0) break;  // shorter than stat said: it was cut meanwhile
@@ -96,6 +117,21 @@ Expected<std::vector<uint8_t>> ReadFileBytes(const std::string& path, size_t max
 }
 
 Expected<std::string> ReadFileText(const std::string& path, size_t max_bytes) { return ReadWhole<std::string>(path, max_bytes); }
+
+Expected<MappedFile> MappedFile::Open(const std::string& path) {
+  Expected<OpenedFile> opened = OpenForReading(path);
+  if (!opened) return tl::unexpected<Error>(opened.error());
+  MappedFile out;
+  if (opened->size == 0) return out;
+  void* at = ::mmap(nullptr, opened->size, PROT_READ, MAP_PRIVATE, opened->file.fd, 0);
+  if (at == MAP_FAILED) return Fail(ErrorCode::kFileUnreadable, "cannot read `" + path + "`: " + Reason());
+  out.bytes_ = {static_cast<uint8_t*>(at), opened->size};
+  return out;
+}
+
+MappedFile::~MappedFile() {
+  if (!bytes_.empty()) ::munmap(bytes_.data(), bytes_.size());
+}
 
 Expected<void> WriteFileAtomically(const std::string& path, std::span<const uint8_t> bytes) {
   return WriteWhole(path, reinterpret_cast<const char*>(bytes.data()), bytes.size());

@@ -5,6 +5,7 @@
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <exception>
@@ -31,7 +32,7 @@ double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y(
 double Cross(const Vector2d& a, const Vector2d& b, const Vector2d& c) { return Cross(b - a, c - a); }
 
 // Triangles and strictly convex quads need no triangulator. False: it is neither.
-bool TriangulateSmall(const Ring2& ring, std::vector<Vector3i>& triangles) {
+bool TriangulateSmall(std::span<const Vector2d> ring, std::vector<Vector3i>& triangles) {
   if (ring.size() == 3) {
     const double area = Cross(ring[0], ring[1], ring[2]);
     if (area > 0) triangles.emplace_back(0, 1, 2);
@@ -117,6 +118,26 @@ bool AllFinite(std::span<const Ring2> rings) {
   return true;
 }
 
+// A plane with axes of its own, for a face.
+struct FacePlane {
+  Vector3d origin, u, v;
+  [[nodiscard]] Vector2d Flat(const Vector3d& p) const { return {u.dot(p - origin), v.dot(p - origin)}; }
+};
+
+// AppendFace of one ring of three or four points, as most faces are, without any memory of its own. False: it is neither such a triangle
+// nor a convex quad.
+bool AppendSmallFace(const Ring3& ring, const FacePlane& plane, Solid& solid) {
+  std::array<Vector2d, 4> flat;
+  if (ring.size() > flat.size()) return false;
+  for (size_t i = 0; i < ring.size(); ++i) flat[i] = plane.Flat(ring[i]);
+  const size_t first = solid.triangles.size();
+  if (!TriangulateSmall(std::span(flat).first(ring.size()), solid.triangles) || solid.triangles.size() == first) return false;
+  const int base = static_cast<int>(solid.vertices.size());
+  for (size_t t = first; t < solid.triangles.size(); ++t) solid.triangles[t].array() += base;
+  solid.vertices.insert(solid.vertices.end(), ring.begin(), ring.end());
+  return true;
+}
+
 Vector3d NewellNormal(const Ring3& ring) {
   Vector3d n = Vector3d::Zero();
   for (size_t i = 0; i < ring.size(); ++i) n += (ring[i] - ring[0]).cross(ring[(i + 1) % ring.size()] - ring[0]);
@@ -150,12 +171,13 @@ bool AppendFace(std::span<const Ring3> rings, Solid& solid) {
   const double length = normal.norm();
   if (!(length > 0) || !std::isfinite(length)) return false;
   normal /= length;
-  const Vector3d u = normal.unitOrthogonal(), v = normal.cross(u);
-  const Vector3d origin = rings[0][0];
+  const Vector3d u = normal.unitOrthogonal();
+  const FacePlane plane{rings[0][0], u, normal.cross(u)};
+  if (rings.size() == 1 && AppendSmallFace(rings[0], plane, solid)) return true;
   std::vector<Ring2> flat(rings.size());
   size_t given = 0;
   for (size_t r = 0; r < rings.size(); ++r) {
-    for (const Vector3d& p : rings[r]) flat[r].emplace_back(u.dot(p - origin), v.dot(p - origin));
+    for (const Vector3d& p : rings[r]) flat[r].push_back(plane.Flat(p));
     given += rings[r].size();
   }
   const Triangulation2 result = TriangulatePolygon(flat);
@@ -163,7 +185,7 @@ bool AppendFace(std::span<const Ring3> rings, Solid& solid) {
   const int base = static_cast<int>(solid.vertices.size());
   for (const Ring3& ring : rings) solid.vertices.insert(solid.vertices.end(), ring.begin(), ring.end());
   for (size_t i = given; i < result.points.size(); ++i) {
-    solid.vertices.push_back(origin + u * result.points[i].x() + v * result.points[i].y());
+    solid.vertices.push_back(plane.origin + plane.u * result.points[i].x() + plane.v * result.points[i].y());
   }
   for (const Vector3i& t : result.triangles) solid.triangles.emplace_back(t.array() + base);
   return true;

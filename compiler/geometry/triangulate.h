@@ -24,12 +24,12 @@ struct Triangulation2 {
 template <class Point>
 void DropRepeatedPoints(double tolerance_m, std::vector<Point>& ring) {
   const auto same = [&](const Point& a, const Point& b) { return (a - b).squaredNorm() <= tolerance_m * tolerance_m; };
-  std::vector<Point> kept;
-  for (const Point& p : ring) {
-    if (kept.empty() || !same(kept.back(), p)) kept.push_back(p);
+  size_t kept = 0;
+  for (size_t i = 0; i < ring.size(); ++i) {
+    if (kept == 0 || !same(ring[kept - 1], ring[i])) ring[kept++] = ring[i];
   }
-  while (kept.size() > 1 && same(kept.front(), kept.back())) kept.pop_back();
-  ring = std::move(kept);
+  while (kept > 1 && same(ring[0], ring[kept - 1])) --kept;
+  ring.resize(kept);
 }
 
 // The area inside an odd number of the rings, whatever their orientation. Every point of the rings is a corner of a triangle, so that the

@@ -78,7 +78,12 @@ ShapeReader::ShapeReader(const IfcModel& model, const PlacementReader& placement
       options_(options),
       curves_(model, placements, options.chord_tolerance_m),
       profiles_(model, placements, curves_, options.chord_tolerance_m),
-      faces_(model, placements, curves_, options_) {}
+      faces_(model, placements, curves_, options_) {
+  for (const uint32_t item : model.InstancesOf(IfcType::kIfcMappedItem)) {
+    const auto map = model.Get(item)[attribute::kMappingSource].Reference();
+    if (map) ++map_items_left_[model.file().Find(*map)];
+  }
+}
 
 ShapeParts ShapeReader::Body(const IfcInstance& definition_shape) {
   if (!definition_shape || definition_shape.type != IfcType::kIfcProductDefinitionShape) return {};
@@ -219,7 +224,16 @@ ShapeParts ShapeReader::Mapped(const IfcInstance& item, int depth) {
     for (ShapePart& part : parts) TransformPart(T_map_origin, part);
     known_parts = std::move(parts);
   }
-  ShapeParts parts = *known_parts;
+  // What nothing refers to any more is handed on, not copied; should it be, in a round-about way, it is read once more and then stays.
+  size_t& items_left = map_items_left_[map.index];
+  const bool is_last = items_left > 0 && --items_left == 0;
+  ShapeParts parts;
+  if (is_last) {
+    parts = std::move(*known_parts);
+    mapped_.erase(map.index);
+  } else {
+    parts = *known_parts;
+  }
   const Affine3d T = placements_.Operator(item[attribute::kMappingTarget]);
   for (ShapePart& part : parts) TransformPart(T, part);
   KeepInRange(model_, item.index, parts);
@@ -289,9 +303,13 @@ ShapeParts ShapeReader::Primitive(const IfcInstance& item) {
 
 ShapeParts ShapeReader::SurfaceModel(const IfcInstance& item) {
   Solid solid;
-  for (const StepValue shell : item[attribute::kModelShells].Items()) AppendSolid(faces_.Shell(model_.Follow(shell)), solid);
+  size_t shells = 0;
+  for (const StepValue shell : item[attribute::kModelShells].Items()) {
+    AppendSolid(faces_.Shell(model_.Follow(shell)), solid);
+    ++shells;
+  }
   // Shells that only close together are one solid.
-  if (!IsClosed(solid)) {
+  if (shells > 1 && !IsClosed(solid)) {
     WeldSolid(options_.weld_tolerance_m, solid);
     OrientOutward(solid);
   }

@@ -76,6 +76,7 @@ class ShapeReader {
   ProfileReader profiles_;
   FaceReader faces_;
   std::unordered_map<uint32_t, std::optional<ShapeParts>> mapped_;  // by IfcRepresentationMap, in its own frame; none while it is read
+  std::unordered_map<uint32_t, size_t> map_items_left_;             // IfcMappedItems that refer to it and were not met yet
 };
 
 }  // namespace plumb::compiler

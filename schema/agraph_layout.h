@@ -18,6 +18,13 @@ inline constexpr size_t kNoField = ~size_t{0};
 [[nodiscard]] uint64_t FileChecksum(std::span<const uint8_t> file, size_t field);
 // That since 2.0: also without the mesh's vertices and triangles.
 [[nodiscard]] uint64_t StructureChecksum(const fb::AGraph& graph, std::span<const uint8_t> file, size_t field);
-[[nodiscard]] uint64_t MeshChecksum(const fb::Mesh& mesh);
+[[nodiscard]] uint64_t MeshChecksum(std::span<const uint8_t> vertices, std::span<const uint8_t> triangles);
+
+// Of all items of a vector; empty if there is none.
+template <class Item>
+std::span<const uint8_t> BytesOf(const flatbuffers::Vector<const Item*>* items) {
+  if (items == nullptr) return {};
+  return {items->Data(), size_t{items->size()} * sizeof(Item)};
+}
 
 }  // namespace plumb

@@ -178,7 +178,7 @@ Expected<Mesh> ConvertMesh(const fb::AGraph& in, size_t elements) {
   Mesh out;
   const fb::Mesh* mesh = in.mesh();
   if (mesh == nullptr) return out;
-  if (in.schema_major() > 1 && MeshChecksum(*mesh) != mesh->checksum())
+  if (in.schema_major() > 1 && MeshChecksum(BytesOf(mesh->vertices()), BytesOf(mesh->triangles())) != mesh->checksum())
     return tl::unexpected<Error>(Damaged("the checksum of its triangles does not hold: bytes were changed since it was written"));
   if (mesh->vertices() != nullptr) {
     out.vertices.reserve(mesh->vertices()->size());

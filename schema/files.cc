@@ -86,7 +86,20 @@ std::string Target(const std::string& path) {
   return error ? path : target.string();
 }
 
-Expected<void> WriteWhole(const std::string& given_path, const char* data, size_t size) {
+// False: errno says why.
+bool WriteAll(int fd, std::span<const uint8_t> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(fd, bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return false;
+    bytes = bytes.subspan(static_cast<size_t>(n));
+  }
+  return true;
+}
+
+}  // namespace
+
+Expected<void> WriteFileAtomically(const std::string& given_path, std::span<const std::span<const uint8_t>> pieces) {
   const bool in_place = IsSpecial(given_path);
   const std::string path = in_place ? given_path : Target(given_path);
   const std::string temporary = in_place ? path : path + ".tmp" + std::to_string(::getpid());
@@ -98,19 +111,13 @@ Expected<void> WriteWhole(const std::string& given_path, const char* data, size_
   {
     Descriptor file{::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)};
     if (file.fd < 0) return fail("cannot create");
-    size_t done = 0;
-    while (done < size) {
-      const ssize_t n = ::write(file.fd, data + done, size - done);
-      if (n < 0 && errno == EINTR) continue;
-      if (n < 0) return fail("cannot write");
-      done += static_cast<size_t>(n);
+    for (const auto piece : pieces) {
+      if (!WriteAll(file.fd, piece)) return fail("cannot write");
     }
   }
   if (!in_place && ::rename(temporary.c_str(), path.c_str()) != 0) return fail("cannot rename onto");
   return {};
 }
-
-}  // namespace
 
 Expected<std::vector<uint8_t>> ReadFileBytes(const std::string& path, size_t max_bytes) {
   return ReadWhole<std::vector<uint8_t>>(path, max_bytes);
@@ -134,9 +141,11 @@ MappedFile::~MappedFile() {
 }
 
 Expected<void> WriteFileAtomically(const std::string& path, std::span<const uint8_t> bytes) {
-  return WriteWhole(path, reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  return WriteFileAtomically(path, std::span(&bytes, 1));
 }
 
-Expected<void> WriteFileAtomically(const std::string& path, std::string_view text) { return WriteWhole(path, text.data(), text.size()); }
+Expected<void> WriteFileAtomically(const std::string& path, std::string_view text) {
+  return WriteFileAtomically(path, std::span(reinterpret_cast<const uint8_t*>(text.data()), text.size()));
+}
 
 }  // namespace plumb

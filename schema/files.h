@@ -42,5 +42,7 @@ class MappedFile {
 // Errors: kFileUnwritable.
 [[nodiscard]] Expected<void> WriteFileAtomically(const std::string& path, std::span<const uint8_t> bytes);
 [[nodiscard]] Expected<void> WriteFileAtomically(const std::string& path, std::string_view text);
+// The same of what stands in pieces, one after the other.
+[[nodiscard]] Expected<void> WriteFileAtomically(const std::string& path, std::span<const std::span<const uint8_t>> pieces);
 
 }  // namespace plumb

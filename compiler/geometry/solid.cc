@@ -182,9 +182,13 @@ double SurfaceArea(const Solid& solid) {
 }
 
 Eigen::AlignedBox3d Bounds(const Solid& solid) {
-  Eigen::AlignedBox3d box;
+  std::vector<char> used(solid.vertices.size(), 0);  // each is looked at once, though six triangles or so share it
   for (const Vector3i& t : solid.triangles) {
-    for (int k = 0; k < 3; ++k) box.extend(Corner(solid, t, k));
+    for (int k = 0; k < 3; ++k) used[static_cast<size_t>(t[k])] = 1;
+  }
+  Eigen::AlignedBox3d box;
+  for (size_t v = 0; v < used.size(); ++v) {
+    if (used[v] != 0) box.extend(solid.vertices[v]);
   }
   return box;
 }

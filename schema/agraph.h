@@ -17,8 +17,8 @@
 
 namespace plumb {
 
-inline constexpr uint32_t kSchemaMajor = 1;
-inline constexpr uint32_t kSchemaMinor = 1;
+inline constexpr uint32_t kSchemaMajor = 2;
+inline constexpr uint32_t kSchemaMinor = 0;
 
 // As in agraph.fbs, same order.
 enum class ElementKind : uint8_t {

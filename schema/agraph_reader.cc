@@ -3,11 +3,15 @@
 #include <flatbuffers/flatbuffers.h>
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
+#include <array>
 #include <new>
-#include <numbers>
+#include <string_view>
+#include <utility>
 
+#include "schema/agraph_check.h"
 #include "schema/agraph_generated.h"
+#include "schema/agraph_layout.h"
 #include "schema/checksum.h"
 #include "schema/files.h"
 
@@ -124,16 +128,6 @@ void ReadRest(const fb::AGraph& in, Copier& copy, AGraph& out) {
                    WallId(e.wall()),
                    DoorwayId(e.doorway())};
   });
-  if (const fb::Mesh* mesh = in.mesh()) {
-    if (mesh->vertices() != nullptr) {
-      out.mesh.vertices.reserve(mesh->vertices()->size());
-      for (const fb::Vec3f* v : *mesh->vertices()) out.mesh.vertices.emplace_back(v->x(), v->y(), v->z());
-    }
-    if (mesh->triangles() != nullptr) {
-      out.mesh.triangles.reserve(mesh->triangles()->size());
-      for (const fb::Triangle* t : *mesh->triangles()) out.mesh.triangles.push_back({t->a(), t->b(), t->c(), t->element()});
-    }
-  }
   ReadAll(in.aliases(), out.aliases, [&](const fb::Alias& a) {
     Alias alias{a.yaw_rad(), Vec(a.translation()), a.overlap_ratio(), StoreyId(a.from_storey()), StoreyId(a.to_storey()), {}, {},
                 a.tolerance_m(), a.section_length_m(), a.closed(), {}};
@@ -153,179 +147,17 @@ void ReadRest(const fb::AGraph& in, Copier& copy, AGraph& out) {
   ReadAll(in.options(), out.options, [&](const fb::Option& o) { return Option{copy.Str(o.name()), copy.Str(o.value())}; });
 }
 
-// Checks what the verifier cannot know: that ids point somewhere and numbers are numbers. Collects the first fault.
-class Checker {
- public:
-  explicit Checker(const AGraph& graph) : graph_(graph) {}
-
-  std::string Run() {
-    Finite("origin", 0, graph_.origin);
-    for (size_t i = 0; i < graph_.storeys.size(); ++i) Finite("storey", i, graph_.storeys[i].elevation_m, graph_.storeys[i].height_m);
-    CheckWallsAndSurfaces();
-    CheckRooms();
-    CheckOpenings();
-    CheckMesh();
-    CheckRest();
-    return fault_;
-  }
-
- private:
-  void Fault(const char* what, size_t i, const std::string& why) {
-    if (fault_.empty()) fault_ = fmt::format("{} {}: {}", what, i, why);
-  }
-  void Number(const char* what, size_t i, double v) {
-    if (!std::isfinite(v)) Fault(what, i, "a number is not finite");
-  }
-  template <class Derived>
-  void Number(const char* what, size_t i, const Eigen::MatrixBase<Derived>& v) {
-    if (!v.allFinite()) Fault(what, i, "a coordinate is not finite");
-  }
-  template <class... Values>
-  void Finite(const char* what, size_t i, const Values&... values) {
-    (Number(what, i, values), ...);
-  }
-  template <class Tag>
-  void Reference(const char* what, size_t i, Id<Tag> id, size_t size, bool may_be_none) {
-    if (id.valid() ? id.index() >= size : !may_be_none) {
-      Fault(what, i, fmt::format("refers to entry {} of a table with {}", id.value, size));
-    }
-  }
-  template <class Tag>
-  void References(const char* what, size_t i, const std::vector<Id<Tag>>& ids, size_t size) {
-    for (Id<Tag> id : ids) Reference(what, i, id, size, false);
-  }
-  void CheckRing(const char* what, size_t i, const Ring& ring) {
-    for (const auto& p : ring) Finite(what, i, p);
-    if (ring.size() < 3) Fault(what, i, fmt::format("a ring has {} points; it needs 3", ring.size()));
-  }
-  void CheckWallsAndSurfaces() {
-    if (graph_.true_north_rad) Finite("true north", 0, *graph_.true_north_rad);
-    const size_t storeys = graph_.storeys.size();
-    for (size_t i = 0; i < graph_.walls.size(); ++i) {
-      const Wall& w = graph_.walls[i];
-      Finite("wall", i, w.axis_start, w.axis_end, w.thickness_m, w.z_min_m, w.z_max_m);
-      Reference("wall", i, w.storey, storeys, true);
-    }
-    for (size_t i = 0; i < graph_.surfaces.size(); ++i) {
-      const Surface& s = graph_.surfaces[i];
-      Finite("surface", i, s.normal, s.d_m, s.start, s.end, s.z_min_m, s.z_max_m);
-      if (s.arc) {
-        constexpr double kFullCircle_rad = 2 * std::numbers::pi + 1e-6;
-        Finite("surface", i, s.arc->center, s.arc->radius_m, s.arc->start_rad, s.arc->sweep_rad);
-        if (!(s.arc->radius_m > 0) || std::abs(s.arc->sweep_rad) > kFullCircle_rad) Fault("surface", i, "the arc is no part of a circle");
-      }
-      if (std::abs(s.normal.norm() - 1) > 1e-6) Fault("surface", i, "the normal is no unit vector");
-      Reference("surface", i, s.wall, graph_.walls.size(), false);
-      Reference("surface", i, s.storey, storeys, true);
-      Reference("surface", i, s.room, graph_.rooms.size(), true);
-    }
-  }
-  void CheckRooms() {
-    for (size_t i = 0; i < graph_.rooms.size(); ++i) {
-      const Room& r = graph_.rooms[i];
-      Finite("room", i, r.area_m2, r.center, r.yaw_rad, r.floor_z_m, r.ceiling_z_m);
-      CheckRing("room", i, r.polygon);
-      for (const Ring& hole : r.holes) CheckRing("room", i, hole);
-      Reference("room", i, r.storey, graph_.storeys.size(), true);
-      References("room", i, r.surfaces, graph_.surfaces.size());
-    }
-  }
-  void CheckOpenings() {
-    const size_t storeys = graph_.storeys.size(), walls = graph_.walls.size();
-    for (size_t i = 0; i < graph_.doorways.size(); ++i) {
-      const Doorway& d = graph_.doorways[i];
-      Finite("doorway", i, d.position, d.yaw_rad, d.width_m, d.height_m);
-      Reference("doorway", i, d.storey, storeys, true);
-      Reference("doorway", i, d.wall, walls, true);
-      Reference("doorway", i, d.room_a, graph_.rooms.size(), true);
-      Reference("doorway", i, d.room_b, graph_.rooms.size(), true);
-    }
-    for (size_t i = 0; i < graph_.windows.size(); ++i) {
-      const Window& w = graph_.windows[i];
-      Finite("window", i, w.position, w.yaw_rad, w.width_m, w.height_m);
-      Reference("window", i, w.storey, storeys, true);
-      Reference("window", i, w.wall, walls, true);
-    }
-    for (size_t i = 0; i < graph_.columns.size(); ++i) {
-      const Column& c = graph_.columns[i];
-      Finite("column", i, c.z_min_m, c.z_max_m);
-      CheckRing("column", i, c.outline);
-      Reference("column", i, c.storey, storeys, true);
-    }
-    for (size_t i = 0; i < graph_.open_boundaries.size(); ++i) {
-      const OpenBoundary& b = graph_.open_boundaries[i];
-      Finite("open boundary", i, b.start, b.end);
-      Reference("open boundary", i, b.storey, storeys, true);
-      Reference("open boundary", i, b.room_a, graph_.rooms.size(), false);
-      Reference("open boundary", i, b.room_b, graph_.rooms.size(), false);
-    }
-  }
-  void CheckMesh() {
-    for (size_t i = 0; i < graph_.elements.size(); ++i) {
-      const Element& e = graph_.elements[i];
-      if (e.kind > ElementKind::kGround || e.material > Material::kGlass) Fault("element", i, "its kind or material is unknown");
-      Reference("element", i, e.storey, graph_.storeys.size(), true);
-      Reference("element", i, e.wall, graph_.walls.size(), true);
-      Reference("element", i, e.doorway, graph_.doorways.size(), true);
-    }
-    for (size_t i = 0; i < graph_.mesh.vertices.size(); ++i) Finite("mesh vertex", i, graph_.mesh.vertices[i]);
-    const size_t vertices = graph_.mesh.vertices.size();
-    for (size_t i = 0; i < graph_.mesh.triangles.size(); ++i) {
-      const Triangle& t = graph_.mesh.triangles[i];
-      if (t.a >= vertices || t.b >= vertices || t.c >= vertices || t.element >= graph_.elements.size()) {
-        Fault("triangle", i, "refers to a vertex or element that is not there");
-      }
-    }
-  }
-  void CheckRest() {
-    for (size_t i = 0; i < graph_.aliases.size(); ++i) CheckAlias(i);
-    for (size_t i = 0; i < graph_.look_alikes.size(); ++i) References("look-alikes", i, graph_.look_alikes[i].rooms, graph_.rooms.size());
-    for (size_t i = 0; i < graph_.factors.size(); ++i) CheckFactor(i);
-    for (size_t i = 0; i < graph_.diagnostics.size(); ++i) {
-      if (graph_.diagnostics[i].severity > Severity::kError) Fault("diagnostic", i, "its severity is unknown");
-    }
-  }
-  void CheckAlias(size_t i) {
-    const Alias& a = graph_.aliases[i];
-    Finite("alias", i, a.yaw_rad, a.translation, a.overlap_ratio, a.tolerance_m, a.section_length_m);
-    Reference("alias", i, a.from_storey, graph_.storeys.size(), true);
-    Reference("alias", i, a.to_storey, graph_.storeys.size(), true);
-    References("alias", i, a.rooms, graph_.rooms.size());
-    References("alias", i, a.twins, graph_.rooms.size());
-    References("alias", i, a.differences, graph_.elements.size());
-    if (a.rooms.size() != a.twins.size()) Fault("alias", i, "it has not one twin for each room");
-  }
-  void CheckFactor(size_t i) {
-    const Factor& f = graph_.factors[i];
-    const auto table = [&](size_t k) -> size_t {
-      switch (f.kind) {
-        case FactorKind::kWallSurfaces: return k == 0 ? graph_.walls.size() : graph_.surfaces.size();
-        case FactorKind::kRoomSurfaces: return k == 0 ? graph_.rooms.size() : graph_.surfaces.size();
-        case FactorKind::kDoorwayRooms: return k == 0 ? graph_.doorways.size() : graph_.rooms.size();
-        case FactorKind::kStoreyRoom: return k == 0 ? graph_.storeys.size() : graph_.rooms.size();
-      }
-      return 0;
-    };
-    for (size_t k = 0; k < f.variables.size(); ++k) {
-      if (f.variables[k] >= table(k)) Fault("factor", i, "refers to a variable that is not there");
-    }
-  }
-
-  const AGraph& graph_;
-  std::string fault_;
-};
-
 Error Damaged(const char* how) { return {ErrorCode::kAGraphDamaged, std::string("the A-Graph is damaged: ") + how}; }
+Error Contradiction(const std::string& fault) { return {ErrorCode::kAGraphInconsistent, "the A-Graph contradicts itself: " + fault}; }
 
-// Written since schema 1.1.
+// Written since schema 1.1; that of 1.x covers the mesh, too.
 bool ChecksumHolds(const fb::AGraph& in, std::span<const uint8_t> bytes) {
-  const uint8_t* field = flatbuffers::GetRoot<flatbuffers::Table>(bytes.data())->GetAddressOf(fb::AGraph::VT_CHECKSUM);
-  if (field == nullptr) return in.schema_major() == 1 && in.schema_minor() == 0;
-  const auto hole = static_cast<size_t>(field - bytes.data());
-  return hole % sizeof(uint64_t) == 0 && ChecksumAround(bytes, hole) == in.checksum();
+  const size_t field = ChecksumField(in, bytes);
+  if (field == kNoField) return in.schema_major() == 1 && in.schema_minor() == 0;
+  return in.checksum() == (in.schema_major() == 1 ? FileChecksum(bytes, field) : StructureChecksum(in, bytes, field));
 }
 
-Expected<AGraph> Convert(const fb::AGraph& in, size_t file_bytes) {
+Expected<AGraph> ConvertStructure(const fb::AGraph& in, size_t file_bytes) {
   Copier copy(file_bytes);
   AGraph out;
   out.tool_version = copy.Str(in.tool_version());
@@ -338,15 +170,29 @@ Expected<AGraph> Convert(const fb::AGraph& in, size_t file_bytes) {
   ReadOpenings(in, copy, out);
   ReadRest(in, copy, out);
   if (copy.exhausted()) return tl::unexpected<Error>(Damaged("its tables share so much that it unfolds to many times its size"));
-  if (std::string fault = Checker(out).Run(); !fault.empty()) {
-    return Fail(ErrorCode::kAGraphInconsistent, "the A-Graph contradicts itself: " + fault);
-  }
+  if (std::string fault = FindFault(out); !fault.empty()) return tl::unexpected<Error>(Contradiction(fault));
   return out;
 }
 
-}  // namespace
+Expected<Mesh> ConvertMesh(const fb::AGraph& in, size_t elements) {
+  Mesh out;
+  const fb::Mesh* mesh = in.mesh();
+  if (mesh == nullptr) return out;
+  if (in.schema_major() > 1 && MeshChecksum(BytesOf(mesh->vertices()), BytesOf(mesh->triangles())) != mesh->checksum())
+    return tl::unexpected<Error>(Damaged("the checksum of its triangles does not hold: bytes were changed since it was written"));
+  if (mesh->vertices() != nullptr) {
+    out.vertices.reserve(mesh->vertices()->size());
+    for (const fb::Vec3f* v : *mesh->vertices()) out.vertices.emplace_back(v->x(), v->y(), v->z());
+  }
+  if (mesh->triangles() != nullptr) {
+    out.triangles.reserve(mesh->triangles()->size());
+    for (const fb::Triangle* t : *mesh->triangles()) out.triangles.push_back({t->a(), t->b(), t->c(), t->element()});
+  }
+  if (std::string fault = FindMeshFault(out, elements); !fault.empty()) return tl::unexpected<Error>(Contradiction(fault));
+  return out;
+}
 
-Expected<AGraph> ReadAGraph(std::span<const uint8_t> bytes) {
+Expected<void> Verify(std::span<const uint8_t> bytes) {
   if (bytes.size() < 8 || !flatbuffers::BufferHasIdentifier(bytes.data(), fb::AGraphIdentifier())) {
     const bool is_step = std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()).starts_with("ISO-10303-21");
     return Fail(ErrorCode::kNotAnAGraph, is_step ? "an IFC plan, not yet an A-Graph: `plumb compile` makes one of it"
@@ -362,18 +208,65 @@ Expected<AGraph> ReadAGraph(std::span<const uint8_t> bytes) {
   }
   if (!ChecksumHolds(in, bytes)) return tl::unexpected<Error>(Damaged("its checksum does not hold: bytes were changed since it was written"));
   if (in.schema_major() == 0) return tl::unexpected<Error>(Damaged("it has no schema version"));
+  return {};
+}
+
+// What `convert` gives, or that the memory does not suffice for it.
+template <class Function>
+auto Guarded(const Function& convert) -> decltype(convert()) {
   try {
-    return Convert(in, bytes.size());
+    return convert();
   } catch (const std::bad_alloc&) {
     return tl::unexpected<Error>(Damaged("it does not fit into the memory"));
   }
 }
 
+Expected<AGraph> ReadGraphWithoutMesh(std::span<const uint8_t> bytes) {
+  if (Expected<void> verified = Verify(bytes); !verified) return tl::unexpected<Error>(verified.error());
+  return Guarded([&] { return ConvertStructure(*fb::GetAGraph(bytes.data()), bytes.size()); });
+}
+
+// Of bytes that Verify has passed.
+Expected<AGraph> WithMesh(std::span<const uint8_t> bytes, AGraph graph) {
+  Expected<Mesh> mesh = Guarded([&] { return ConvertMesh(*fb::GetAGraph(bytes.data()), graph.elements.size()); });
+  if (!mesh) return tl::unexpected<Error>(mesh.error());
+  graph.mesh = std::move(*mesh);
+  return graph;
+}
+
+tl::unexpected<Error> About(const std::string& path, const Error& error) { return Fail(error.code, "`" + path + "`: " + error.message); }
+
+}  // namespace
+
+Expected<AGraph> ReadAGraph(std::span<const uint8_t> bytes) {
+  Expected<AGraph> graph = ReadGraphWithoutMesh(bytes);
+  if (!graph) return graph;
+  return WithMesh(bytes, std::move(*graph));
+}
+
 Expected<AGraph> ReadAGraphFile(const std::string& path) {
-  Expected<std::vector<uint8_t>> bytes = ReadFileBytes(path);
-  if (!bytes) return tl::unexpected<Error>(bytes.error());
-  Expected<AGraph> graph = ReadAGraph(*bytes);
-  if (!graph) return Fail(graph.error().code, "`" + path + "`: " + graph.error().message);
+  Expected<AGraphFile> file = AGraphFile::Open(path);
+  if (!file) return tl::unexpected<Error>(file.error());
+  return std::move(*file).Load();
+}
+
+Expected<AGraphFile> AGraphFile::Open(const std::string& path) {
+  Expected<MappedFile> file = MappedFile::Open(path);
+  if (!file) return tl::unexpected<Error>(file.error());
+  Expected<AGraph> graph = ReadGraphWithoutMesh(file->bytes());
+  if (!graph) return About(path, graph.error());
+  AGraphFile out;
+  out.path_ = path;
+  out.graph_ = std::move(*graph);
+  const fb::Mesh* mesh = fb::GetAGraph(file->bytes().data())->mesh();
+  if (mesh != nullptr && mesh->triangles() != nullptr) out.triangle_count_ = mesh->triangles()->size();
+  out.file_ = std::move(*file);
+  return out;
+}
+
+Expected<AGraph> AGraphFile::Load() && {
+  Expected<AGraph> graph = WithMesh(file_.bytes(), std::move(graph_));
+  if (!graph) return About(path_, graph.error());
   return graph;
 }
 

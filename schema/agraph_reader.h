@@ -2,12 +2,14 @@
 // is checked, so that a value that comes back needs no further checks.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
 
 #include "schema/agraph.h"
 #include "schema/error.h"
+#include "schema/files.h"
 
 namespace plumb {
 
@@ -18,5 +20,28 @@ namespace plumb {
 
 // As above; also kFileNotFound, kFileUnreadable.
 [[nodiscard]] Expected<AGraph> ReadAGraphFile(const std::string& path);
+
+// An A-Graph whose triangles, most of a large file, are still in it. The file must not be written to meanwhile; putting another in its
+// place, as WriteAGraphFile does, is no harm.
+class AGraphFile {
+ public:
+  // Errors as ReadAGraphFile, but those of the triangles. Linear in the size of the file without them; files of schema 1.x are read whole
+  // for their checksum.
+  [[nodiscard]] static Expected<AGraphFile> Open(const std::string& path);
+
+  [[nodiscard]] const AGraph& graph() const { return graph_; }  // with an empty mesh
+  [[nodiscard]] size_t triangle_count() const { return triangle_count_; }
+
+  // The graph with its triangles. Errors: kAGraphDamaged, kAGraphInconsistent.
+  [[nodiscard]] Expected<AGraph> Load() &&;
+
+ private:
+  AGraphFile() = default;
+
+  std::string path_;
+  MappedFile file_;
+  AGraph graph_;
+  size_t triangle_count_ = 0;
+};
 
 }  // namespace plumb

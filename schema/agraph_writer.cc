@@ -2,8 +2,12 @@
 
 #include <flatbuffers/flatbuffers.h>
 
+#include <array>
+#include <bit>
+#include <span>
+
 #include "schema/agraph_generated.h"
-#include "schema/checksum.h"
+#include "schema/agraph_layout.h"
 #include "schema/files.h"
 
 namespace plumb {
@@ -135,15 +139,15 @@ auto PackElements(Builder& b, const AGraph& g) {
   });
 }
 
+constexpr uint64_t kNotYet = 1;  // a checksum's place; 0 would be left out
+
+// Only room for it: Pieces puts the graph's own mesh there.
 auto PackMesh(Builder& b, const Mesh& mesh) {
-  const auto vertices = b.CreateVectorOfStructs<fb::Vec3f>(mesh.vertices.size(), [&](size_t i, fb::Vec3f* out) {
-    *out = {mesh.vertices[i].x(), mesh.vertices[i].y(), mesh.vertices[i].z()};
-  });
-  const auto triangles = b.CreateVectorOfStructs<fb::Triangle>(mesh.triangles.size(), [&](size_t i, fb::Triangle* out) {
-    const Triangle& t = mesh.triangles[i];
-    *out = {t.a, t.b, t.c, t.element};
-  });
-  return fb::CreateMesh(b, vertices, triangles);
+  fb::Vec3f* vertices_room = nullptr;
+  fb::Triangle* triangles_room = nullptr;
+  const auto vertices = b.CreateUninitializedVectorOfStructs(mesh.vertices.size(), &vertices_room);
+  const auto triangles = b.CreateUninitializedVectorOfStructs(mesh.triangles.size(), &triangles_room);
+  return fb::CreateMesh(b, vertices, triangles, kNotYet);
 }
 
 auto PackAliases(Builder& b, const AGraph& g) {
@@ -176,13 +180,34 @@ auto PackOptions(Builder& b, const AGraph& g) {
   });
 }
 
-// The mesh makes up most of a large file; a builder that has to grow holds the file twice.
+// Room for all: a builder that has to grow would touch the room for the mesh.
 size_t ExpectedBytes(const AGraph& g) {
   return (1 << 20) + g.mesh.vertices.size() * sizeof(fb::Vec3f) + g.mesh.triangles.size() * sizeof(fb::Triangle);
 }
 
-void Pack(const AGraph& g, Builder& b) {
+using Bytes = std::span<const uint8_t>;
+
+template <class Item>
+Bytes AsInFile(const std::vector<Item>& items) {
+  static_assert(std::endian::native == std::endian::little, "the numbers in a file are little-endian");
+  return {reinterpret_cast<const uint8_t*>(items.data()), items.size() * sizeof(Item)};
+}
+static_assert(sizeof(Eigen::Vector3f) == sizeof(fb::Vec3f) && sizeof(Triangle) == sizeof(fb::Triangle));
+
+// The file as it is written, one piece after the other. The mesh, most of a large one, is not copied into the builder: its pages there are
+// never touched, and so take no memory.
+std::array<Bytes, 5> Pieces(const AGraph& g, Bytes packed) {
+  const fb::Mesh& mesh = *fb::GetAGraph(packed.data())->mesh();
+  const Bytes triangles = BytesOf(mesh.triangles()), vertices = BytesOf(mesh.vertices());  // later is further in front
+  return {Bytes(packed.data(), triangles.data()), AsInFile(g.mesh.triangles), Bytes(triangles.data() + triangles.size(), vertices.data()),
+          AsInFile(g.mesh.vertices), Bytes(vertices.data() + vertices.size(), packed.data() + packed.size())};
+}
+
+// The result is in the builder.
+Bytes Pack(const AGraph& g, Builder& b) {
   // Sequenced statements: the order of evaluation of call arguments, and so the bytes, would differ between compilers.
+  // The builder puts what comes first at the end: all but the mesh is one piece at the beginning of the file.
+  const auto mesh = PackMesh(b, g.mesh);
   const auto tool_version = Str(b, g.tool_version);
   const auto source_path = Str(b, g.source_path);
   const auto source_format = Str(b, g.source_format);
@@ -197,35 +222,37 @@ void Pack(const AGraph& g, Builder& b) {
   const auto columns = PackColumns(b, g);
   const auto factors = PackFactors(b, g);
   const auto elements = PackElements(b, g);
-  const auto mesh = PackMesh(b, g.mesh);
   const auto aliases = PackAliases(b, g);
   const auto diagnostics = PackDiagnostics(b, g);
   const auto open_boundaries = PackOpenBoundaries(b, g);
   const auto look_alikes = PackLookAlikes(b, g);
   const fb::Vec3 origin = Pack(g.origin);
   const auto true_north = g.true_north_rad ? flatbuffers::Optional<double>(*g.true_north_rad) : flatbuffers::nullopt;
-  constexpr uint64_t kNotYet = 1;  // 0 would be left out
   b.Finish(fb::CreateAGraph(b, kSchemaMajor, kSchemaMinor, tool_version, source_path, source_format, source_sha256, options, &origin, storeys,
                             walls, surfaces, rooms, doorways, windows, columns, factors, elements, mesh, aliases, diagnostics,
                             open_boundaries, look_alikes, true_north, kNotYet),
            fb::AGraphIdentifier());
-  uint8_t* field = flatbuffers::GetMutableRoot<flatbuffers::Table>(b.GetBufferPointer())->GetAddressOf(fb::AGraph::VT_CHECKSUM);
-  const auto hole = static_cast<size_t>(field - b.GetBufferPointer());
-  flatbuffers::WriteScalar(field, ChecksumAround({b.GetBufferPointer(), b.GetSize()}, hole));
+  fb::AGraph* graph = fb::GetMutableAGraph(b.GetBufferPointer());
+  graph->mutable_mesh()->mutate_checksum(MeshChecksum(AsInFile(g.mesh.vertices), AsInFile(g.mesh.triangles)));
+  const Bytes file(b.GetBufferPointer(), b.GetSize());
+  graph->mutate_checksum(StructureChecksum(*graph, file, ChecksumField(*graph, file)));
+  return file;
 }
 
 }  // namespace
 
 std::vector<uint8_t> WriteAGraph(const AGraph& graph) {
   Builder b(ExpectedBytes(graph));
-  Pack(graph, b);
-  return {b.GetBufferPointer(), b.GetBufferPointer() + b.GetSize()};
+  const Bytes packed = Pack(graph, b);
+  std::vector<uint8_t> out;
+  out.reserve(packed.size());
+  for (const Bytes piece : Pieces(graph, packed)) out.insert(out.end(), piece.begin(), piece.end());
+  return out;
 }
 
 Expected<void> WriteAGraphFile(const AGraph& graph, const std::string& path) {
   Builder b(ExpectedBytes(graph));
-  Pack(graph, b);
-  return WriteFileAtomically(path, std::span<const uint8_t>(b.GetBufferPointer(), b.GetSize()));
+  return WriteFileAtomically(path, Pieces(graph, Pack(graph, b)));
 }
 
 }  // namespace plumb

@@ -25,7 +25,7 @@ uint64_t WordAt(const uint8_t* at, size_t size) {
   return word;
 }
 
-// Goes on from `state` over bytes that begin at a multiple of 8. Four lanes, since each step waits for the one before.
+// Goes on from `state`. Four lanes, since each step waits for the one before.
 uint64_t Continue(uint64_t state, std::span<const uint8_t> bytes) {
   std::array<uint64_t, kLanes> lanes = {state, 1, 2, 3};
   size_t at = 0;
@@ -40,8 +40,10 @@ uint64_t Continue(uint64_t state, std::span<const uint8_t> bytes) {
 
 }  // namespace
 
-uint64_t ChecksumAround(std::span<const uint8_t> bytes, size_t hole) {
-  return Continue(Continue(bytes.size(), bytes.first(hole)), bytes.subspan(hole + kWord));
+uint64_t Checksum(std::span<const std::span<const uint8_t>> pieces, uint64_t seed) {
+  uint64_t out = seed;
+  for (const auto piece : pieces) out = Continue(out, piece);
+  return out;
 }
 
 }  // namespace plumb

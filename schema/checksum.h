@@ -6,8 +6,8 @@
 
 namespace plumb {
 
-// 64 bits over `bytes`, of which the 8 from `hole` on count as zero: there the checksum itself stands. `hole` is a multiple of 8 and lies
-// within. Any change that stays within one aligned word of 8 bytes is found for certain, others but for a chance of 2^-64. Memory speed.
-[[nodiscard]] uint64_t ChecksumAround(std::span<const uint8_t> bytes, size_t hole);
+// 64 bits over the bytes of all `pieces`, one after the other, and their sizes; `seed` is a number that they belong to. A change that stays
+// within 8 bytes counted from a piece's start is found for certain, others but for a chance of 2^-64. Memory speed.
+[[nodiscard]] uint64_t Checksum(std::span<const std::span<const uint8_t>> pieces, uint64_t seed);
 
 }  // namespace plumb

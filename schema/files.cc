@@ -1,6 +1,7 @@
 #include "schema/files.h"
 
 #include <fcntl.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -9,12 +10,19 @@
 #include <cstring>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 
 namespace plumb {
 namespace {
 
 struct Descriptor {
   int fd = -1;
+  explicit Descriptor(int its_fd = -1) : fd(its_fd) {}
+  Descriptor(Descriptor&& other) noexcept : fd(std::exchange(other.fd, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(fd, other.fd);
+    return *this;
+  }
   ~Descriptor() {
     if (fd >= 0) ::close(fd);
   }
@@ -22,25 +30,38 @@ struct Descriptor {
 
 std::string Reason() { return std::strerror(errno); }
 
-// Container: std::string or std::vector<uint8_t>.
-template <class Container>
-Expected<Container> ReadWhole(const std::string& path, size_t max_bytes) {
-  Descriptor file{::open(path.c_str(), O_RDONLY | O_CLOEXEC)};
-  if (file.fd < 0) {
+struct OpenedFile {
+  Descriptor file;
+  size_t size = 0;
+};
+
+Expected<OpenedFile> OpenForReading(const std::string& path) {
+  OpenedFile out;
+  out.file.fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
+  if (out.file.fd < 0) {
     const ErrorCode code = errno == ENOENT ? ErrorCode::kFileNotFound : ErrorCode::kFileUnreadable;
     return Fail(code, "cannot open `" + path + "`: " + Reason());
   }
   struct stat info {};
-  if (::fstat(file.fd, &info) != 0 || S_ISDIR(info.st_mode)) return Fail(ErrorCode::kFileUnreadable, "`" + path + "` is no file");
-  if (static_cast<size_t>(info.st_size) > max_bytes) {
+  if (::fstat(out.file.fd, &info) != 0 || S_ISDIR(info.st_mode)) return Fail(ErrorCode::kFileUnreadable, "`" + path + "` is no file");
+  out.size = static_cast<size_t>(info.st_size);
+  return out;
+}
+
+// Container: std::string or std::vector<uint8_t>.
+template <class Container>
+Expected<Container> ReadWhole(const std::string& path, size_t max_bytes) {
+  Expected<OpenedFile> opened = OpenForReading(path);
+  if (!opened) return tl::unexpected<Error>(opened.error());
+  if (opened->size > max_bytes) {
     return Fail(ErrorCode::kFileTooLarge,
-                "`" + path + "` has " + std::to_string(info.st_size) + " bytes; at most " + std::to_string(max_bytes) + " are read");
+                "`" + path + "` has " + std::to_string(opened->size) + " bytes; at most " + std::to_string(max_bytes) + " are read");
   }
   Container bytes;
-  bytes.resize(static_cast<size_t>(info.st_size));
+  bytes.resize(opened->size);
   size_t done = 0;
   while (done < bytes.size()) {
-    const ssize_t n = ::read(file.fd, bytes.data() + done, bytes.size() - done);
+    const ssize_t n = ::read(opened->file.fd, bytes.data() + done, bytes.size() - done);
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) return Fail(ErrorCode::kFileUnreadable, "cannot read `" + path + "`: " + Reason());
     if (n == 0) break;  // shorter than stat said: it was cut meanwhile
@@ -65,7 +86,20 @@ std::string Target(const std::string& path) {
   return error ? path : target.string();
 }
 
-Expected<void> WriteWhole(const std::string& given_path, const char* data, size_t size) {
+// False: errno says why.
+bool WriteAll(int fd, std::span<const uint8_t> bytes) {
+  while (!bytes.empty()) {
+    const ssize_t n = ::write(fd, bytes.data(), bytes.size());
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) return false;
+    bytes = bytes.subspan(static_cast<size_t>(n));
+  }
+  return true;
+}
+
+}  // namespace
+
+Expected<void> WriteFileAtomically(const std::string& given_path, std::span<const std::span<const uint8_t>> pieces) {
   const bool in_place = IsSpecial(given_path);
   const std::string path = in_place ? given_path : Target(given_path);
   const std::string temporary = in_place ? path : path + ".tmp" + std::to_string(::getpid());
@@ -77,19 +111,13 @@ Expected<void> WriteWhole(const std::string& given_path, const char* data, size_
   {
     Descriptor file{::open(temporary.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644)};
     if (file.fd < 0) return fail("cannot create");
-    size_t done = 0;
-    while (done < size) {
-      const ssize_t n = ::write(file.fd, data + done, size - done);
-      if (n < 0 && errno == EINTR) continue;
-      if (n < 0) return fail("cannot write");
-      done += static_cast<size_t>(n);
+    for (const auto piece : pieces) {
+      if (!WriteAll(file.fd, piece)) return fail("cannot write");
     }
   }
   if (!in_place && ::rename(temporary.c_str(), path.c_str()) != 0) return fail("cannot rename onto");
   return {};
 }
-
-}  // namespace
 
 Expected<std::vector<uint8_t>> ReadFileBytes(const std::string& path, size_t max_bytes) {
   return ReadWhole<std::vector<uint8_t>>(path, max_bytes);
@@ -97,10 +125,27 @@ Expected<std::vector<uint8_t>> ReadFileBytes(const std::string& path, size_t max
 
 Expected<std::string> ReadFileText(const std::string& path, size_t max_bytes) { return ReadWhole<std::string>(path, max_bytes); }
 
-Expected<void> WriteFileAtomically(const std::string& path, std::span<const uint8_t> bytes) {
-  return WriteWhole(path, reinterpret_cast<const char*>(bytes.data()), bytes.size());
+Expected<MappedFile> MappedFile::Open(const std::string& path) {
+  Expected<OpenedFile> opened = OpenForReading(path);
+  if (!opened) return tl::unexpected<Error>(opened.error());
+  MappedFile out;
+  if (opened->size == 0) return out;
+  void* at = ::mmap(nullptr, opened->size, PROT_READ, MAP_PRIVATE, opened->file.fd, 0);
+  if (at == MAP_FAILED) return Fail(ErrorCode::kFileUnreadable, "cannot read `" + path + "`: " + Reason());
+  out.bytes_ = {static_cast<uint8_t*>(at), opened->size};
+  return out;
 }
 
-Expected<void> WriteFileAtomically(const std::string& path, std::string_view text) { return WriteWhole(path, text.data(), text.size()); }
+MappedFile::~MappedFile() {
+  if (!bytes_.empty()) ::munmap(bytes_.data(), bytes_.size());
+}
+
+Expected<void> WriteFileAtomically(const std::string& path, std::span<const uint8_t> bytes) {
+  return WriteFileAtomically(path, std::span(&bytes, 1));
+}
+
+Expected<void> WriteFileAtomically(const std::string& path, std::string_view text) {
+  return WriteFileAtomically(path, std::span(reinterpret_cast<const uint8_t*>(text.data()), text.size()));
+}
 
 }  // namespace plumb

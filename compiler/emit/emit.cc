@@ -10,11 +10,14 @@ namespace {
 // Single precision holds 0.1 mm up to here.
 constexpr double kFar_m = 1000;
 
-// Finds vertices by their bits: a hash table of positions in the vector, with open addresses.
+// Finds the vertices of an element by their bits: a hash table of positions in the vector, with open addresses. One for each element, as a
+// table of all would miss the cache at every look-up.
 class VertexTable {
  public:
-  VertexTable(std::vector<Eigen::Vector3f>& vertices, size_t max_vertices)
-      : vertices_(vertices), slots_(std::bit_ceil(2 * max_vertices + 1), kEmpty) {}
+  explicit VertexTable(std::vector<Eigen::Vector3f>& vertices) : vertices_(vertices) {}
+
+  // Forgets those of the element before.
+  void Start(size_t max_vertices) { slots_.assign(std::bit_ceil(2 * max_vertices + 1), kEmpty); }
 
   // Position of `v`, which is added if it is new. -0 and 0 are one point.
   uint32_t FindOrAdd(Eigen::Vector3f v) {
@@ -97,11 +100,12 @@ void EmitMesh(const PlanIr& plan, AGraph& graph) {
   }
   graph.mesh.vertices.reserve(vertices);
   graph.mesh.triangles.reserve(triangles);
-  VertexTable table(graph.mesh.vertices, vertices);
+  VertexTable table(graph.mesh.vertices);
   std::vector<uint32_t> index;
   for (uint32_t e = 0; e < plan.elements.size(); ++e) {
     const Solid& body = plan.elements[e].body;
     index.clear();
+    table.Start(body.vertices.size());
     for (const auto& v : body.vertices) index.push_back(table.FindOrAdd((v - shift).cast<float>()));
     for (const Eigen::Vector3i& t : body.triangles) {
       const Triangle out{index[static_cast<size_t>(t[0])], index[static_cast<size_t>(t[1])], index[static_cast<size_t>(t[2])], e};

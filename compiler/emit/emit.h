@@ -9,8 +9,8 @@
 
 namespace plumb::compiler {
 
-// Fills graph.mesh with the bodies of plan.elements; triangle.element is the position there. Vertices that fall on the same
-// single-precision point are one, degenerate triangles go. Sets graph.origin: the plan's, moved to the middle of the triangles if those lie
+// Fills graph.mesh with the bodies of plan.elements; triangle.element is the position there. Vertices of an element that fall on
+// the same single-precision point are one, degenerate triangles go. Sets graph.origin: the plan's, moved to the middle of the triangles if those lie
 // far from it.
 void EmitMesh(const PlanIr& plan, AGraph& graph);
 

@@ -26,6 +26,7 @@ struct Plane {
 struct Polygon {
   std::vector<Vector3d> points;  // convex, counter-clockwise seen along -plane.n
   Plane plane;
+  uint32_t tool = 0;  // of a cut, that it bounds
 };
 using Polygons = std::vector<Polygon>;
 
@@ -122,6 +123,7 @@ class Csg {
   void Split(const Plane& plane, const Polygon& polygon, Polygons& front, Polygons& back) {
     Polygon f, b;
     f.plane = b.plane = polygon.plane;
+    f.tool = b.tool = polygon.tool;
     const size_t n = polygon.points.size();
     for (size_t i = 0; i < n; ++i) {
       const Vector3d& p = polygon.points[i];
@@ -224,18 +226,50 @@ AlignedBox3d Grown(AlignedBox3d box, double margin_m) {
   return box;
 }
 
-Expected<Solid> Run(const Solid& a, const Solid& b, bool close, const CsgOptions& options) {
+struct Tools {
+  Polygons faces;
+  std::vector<AlignedBox3d> boxes;  // with the planes' thickness around
+};
+
+Tools ToTools(std::span<const Solid* const> solids, const Vector3d& origin, double epsilon_m) {
+  Tools out;
+  for (const Solid* solid : solids) {
+    Polygons faces = ToPolygons(*solid, origin, epsilon_m);
+    for (Polygon& p : faces) p.tool = static_cast<uint32_t>(out.boxes.size());
+    out.boxes.push_back(Grown(BoundsOf(faces), epsilon_m));
+    out.faces.insert(out.faces.end(), std::make_move_iterator(faces.begin()), std::make_move_iterator(faces.end()));
+  }
+  return out;
+}
+
+// A face that is not all left was cut by a tool's face within the solid, unless a tool holds all of it.
+void MarkTheToolAround(const Polygon& face, const Tools& tools, std::vector<bool>& cuts) {
+  AlignedBox3d box;
+  for (const Vector3d& v : face.points) box.extend(v);
+  for (size_t t = 0; t < tools.boxes.size(); ++t) {
+    if (tools.boxes[t].contains(box)) cuts[t] = true;
+  }
+}
+
+Expected<DifferenceOfMany> Run(const Solid& a, std::span<const Solid* const> solids, bool close, const CsgOptions& options) {
   if (std::string problem = options.Check(); !problem.empty()) return Fail(ErrorCode::kBadOption, std::move(problem));
-  if (a.empty() || b.empty()) return a;
+  DifferenceOfMany out;
+  out.cuts.resize(solids.size());
+  const auto unchanged = [&] {
+    out.rest = a;
+    return std::move(out);
+  };
+  if (a.empty()) return unchanged();
   const double epsilon_m = options.plane_epsilon_m;
   const Vector3d origin = Bounds(a).center();
-  Polygons faces_a = ToPolygons(a, origin, epsilon_m), faces_b = ToPolygons(b, origin, epsilon_m);
-  const AlignedBox3d box_a = Grown(BoundsOf(faces_a), epsilon_m), box_b = Grown(BoundsOf(faces_b), epsilon_m);
-  if (!box_a.intersects(box_b)) return a;
+  Polygons faces_a = ToPolygons(a, origin, epsilon_m);
+  const Tools tools = ToTools(solids, origin, epsilon_m);
+  const AlignedBox3d box_a = Grown(BoundsOf(faces_a), epsilon_m), box_b = Grown(BoundsOf(tools.faces), epsilon_m);
+  if (!box_a.intersects(box_b)) return unchanged();
   try {
     Csg csg(options);
-    const std::unique_ptr<Node> tree_b = csg.Build(faces_b);
-    if (tree_b == nullptr) return a;
+    const std::unique_ptr<Node> tree_b = csg.Build(tools.faces);
+    if (tree_b == nullptr) return unchanged();
     Polygons kept;
     bool untouched = true;
     for (const Polygon& p : faces_a) {
@@ -246,28 +280,36 @@ Expected<Solid> Run(const Solid& a, const Solid& b, bool close, const CsgOptions
         kept.resize(before);  // its fragments, if any: the polygon itself will do
         kept.push_back(p);
       }
+      if (!all) MarkTheToolAround(p, tools, out.cuts);
       untouched &= all;
     }
     if (close) {
       const std::unique_ptr<Node> tree_a = csg.Build(std::move(faces_a));
-      for (const Polygon& p : faces_b) {
+      for (const Polygon& p : tools.faces) {
         if (!Overlaps(p, box_a)) continue;
         Polygons inside;
         if (csg.KeepInside(tree_a.get(), false, p, inside)) inside.assign(1, p);
         for (Polygon& piece : inside) {
           std::reverse(piece.points.begin(), piece.points.end());
+          out.cuts[piece.tool] = true;
           kept.push_back(std::move(piece));
           untouched = false;
         }
       }
     }
-    if (untouched) return a;
-    return ToSolid(std::move(kept), origin, epsilon_m);
+    if (untouched) return unchanged();
+    out.rest = ToSolid(std::move(kept), origin, epsilon_m);
+    return out;
   } catch (const LimitReached&) {
     return Fail(ErrorCode::kInternal,
                 fmt::format("the difference of solids of {} and {} triangles needs more than {} polygons or {} levels", a.triangles.size(),
-                            b.triangles.size(), options.max_polygons, options.max_depth));
+                            tools.faces.size(), options.max_polygons, options.max_depth));
   }
+}
+
+Expected<Solid> RunOne(const Solid& a, const Solid& b, bool close, const CsgOptions& options) {
+  const Solid* tool = &b;
+  return Run(a, {&tool, 1}, close, options).map([](DifferenceOfMany&& difference) { return std::move(difference.rest); });
 }
 
 }  // namespace
@@ -280,9 +322,13 @@ std::string CsgOptions::Check() const {
   return {};
 }
 
-Expected<Solid> Subtract(const Solid& a, const Solid& b, const CsgOptions& options) { return Run(a, b, true, options); }
+Expected<Solid> Subtract(const Solid& a, const Solid& b, const CsgOptions& options) { return RunOne(a, b, true, options); }
 
-Expected<Solid> ClipOutside(const Solid& a, const Solid& b, const CsgOptions& options) { return Run(a, b, false, options); }
+Expected<DifferenceOfMany> SubtractAll(const Solid& a, std::span<const Solid* const> tools, const CsgOptions& options) {
+  return Run(a, tools, true, options);
+}
+
+Expected<Solid> ClipOutside(const Solid& a, const Solid& b, const CsgOptions& options) { return RunOne(a, b, false, options); }
 
 Expected<Solid> CutByPlane(const Solid& a, const Vector3d& n, double d_m, const CsgOptions& options) {
   if (a.empty()) return a;
@@ -295,7 +341,7 @@ Expected<Solid> CutByPlane(const Solid& a, const Vector3d& n, double d_m, const 
   T_out_plane.linear() << u, n.cross(u), n;
   T_out_plane.translation() = center;
   const double depth_m = reach_m + std::abs(n.dot(box.center()) + d_m);
-  return Run(a, MakeBox({-reach_m, -reach_m, 0}, {reach_m, reach_m, depth_m}, T_out_plane), true, options);
+  return RunOne(a, MakeBox({-reach_m, -reach_m, 0}, {reach_m, reach_m, depth_m}, T_out_plane), true, options);
 }
 
 }  // namespace plumb::compiler

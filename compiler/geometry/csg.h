@@ -6,7 +6,9 @@
 // planes. Operands are moved near zero inside; far coordinates cost no precision beyond their own. O((n + m) log(n + m)) for usual solids.
 #pragma once
 
+#include <span>
 #include <string>
+#include <vector>
 
 #include "compiler/geometry/solid.h"
 #include "schema/error.h"
@@ -23,6 +25,15 @@ struct CsgOptions {
 
 // a minus b; normals outward in both. Errors: kBadOption, kInternal (a limit was reached).
 [[nodiscard]] Expected<Solid> Subtract(const Solid& a, const Solid& b, const CsgOptions& options = {});
+
+struct DifferenceOfMany {
+  Solid rest;
+  std::vector<bool> cuts;  // by tool: it took something away
+};
+
+// a minus all `tools` at once, which must lie apart from one another by more than the planes: one step whatever their number, where cutting
+// one after the other would touch all that was cut before. Errors as for Subtract.
+[[nodiscard]] Expected<DifferenceOfMany> SubtractAll(const Solid& a, std::span<const Solid* const> tools, const CsgOptions& options = {});
 
 // The part of the surface `a`, which need not be closed, that is outside the closed solid `b`. Errors as for Subtract.
 [[nodiscard]] Expected<Solid> ClipOutside(const Solid& a, const Solid& b, const CsgOptions& options = {});

@@ -65,14 +65,11 @@ void ForEachEdge(const std::vector<Side>& sides, Visit visit) {
   }
 }
 
-bool IsClosed(const std::vector<Side>& sides) {
-  bool closed = true;
-  ForEachEdge(sides, [&](size_t i, size_t j) {
-    const auto forward = std::count_if(sides.begin() + static_cast<std::ptrdiff_t>(i), sides.begin() + static_cast<std::ptrdiff_t>(j),
-                                       [](const Side& s) { return s.forward; });
-    closed &= 2 * static_cast<size_t>(forward) == j - i;
-  });
-  return closed;
+// A number for each edge that shares no pattern with those of others (the finalizer of splitmix64).
+uint64_t Scrambled(uint64_t edge) {
+  edge = (edge ^ edge >> 30) * 0xbf58476d1ce4e5b9u;
+  edge = (edge ^ edge >> 27) * 0x94d049bb133111ebu;
+  return edge ^ edge >> 31;
 }
 
 // Turns triangles so that neighbours across edges of two triangles run against each other.
@@ -185,14 +182,28 @@ double SurfaceArea(const Solid& solid) {
 }
 
 Eigen::AlignedBox3d Bounds(const Solid& solid) {
-  Eigen::AlignedBox3d box;
+  std::vector<char> used(solid.vertices.size(), 0);  // each is looked at once, though six triangles or so share it
   for (const Vector3i& t : solid.triangles) {
-    for (int k = 0; k < 3; ++k) box.extend(Corner(solid, t, k));
+    for (int k = 0; k < 3; ++k) used[static_cast<size_t>(t[k])] = 1;
+  }
+  Eigen::AlignedBox3d box;
+  for (size_t v = 0; v < used.size(); ++v) {
+    if (used[v] != 0) box.extend(solid.vertices[v]);
   }
   return box;
 }
 
-bool IsClosed(const Solid& solid) { return !solid.empty() && IsClosed(SortedSides(solid)); }
+// Each side adds its edge's number one way and takes it away the other: nothing is left.
+bool IsClosed(const Solid& solid) {
+  uint64_t left = 0;
+  for (const Vector3i& t : solid.triangles) {
+    for (int k = 0; k < 3; ++k) {
+      const auto a = static_cast<uint32_t>(t[k]), b = static_cast<uint32_t>(t[(k + 1) % 3]);
+      left += a < b ? Scrambled(uint64_t{a} << 32 | b) : ~Scrambled(uint64_t{b} << 32 | a) + 1;
+    }
+  }
+  return !solid.empty() && left == 0;
+}
 
 void TransformSolid(const Eigen::Affine3d& T_out_in, Solid& solid) {
   for (Vector3d& v : solid.vertices) v = T_out_in * v;
@@ -201,6 +212,14 @@ void TransformSolid(const Eigen::Affine3d& T_out_in, Solid& solid) {
 
 void FlipSolid(Solid& solid) {
   for (Vector3i& t : solid.triangles) std::swap(t[1], t[2]);
+}
+
+void ShrinkSolid(Solid& solid) {
+  const auto shrink = [](auto& items) {
+    if (items.capacity() > items.size() + items.size() / 8) items.shrink_to_fit();
+  };
+  shrink(solid.vertices);
+  shrink(solid.triangles);
 }
 
 void AppendSolid(const Solid& from, Solid& into) {
@@ -238,12 +257,11 @@ void WeldSolid(double tolerance_m, Solid& solid) {
 
 void OrientOutward(Solid& solid) {
   if (solid.empty()) return;
-  const std::vector<Side> sides = SortedSides(solid);
-  if (IsClosed(sides)) {
+  if (IsClosed(solid)) {
     if (Volume(solid) < 0) FlipSolid(solid);
     return;
   }
-  MakeConsistent(sides, solid);
+  MakeConsistent(SortedSides(solid), solid);
   // Each piece was turned to an orientation of its own.
   std::vector<Solid> pieces = ConnectedPieces(solid);
   solid = {};

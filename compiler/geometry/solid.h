@@ -22,7 +22,7 @@ struct Solid {
 [[nodiscard]] Eigen::AlignedBox3d Bounds(const Solid& solid);  // of the vertices that triangles use
 
 // Every edge is run through as often in one direction as in the other: the surface has no boundary and one orientation.
-// Vertices must be welded. O(n log n).
+// Vertices must be welded. O(n): edges are summed up by hash, and a surface with a boundary passes by a chance of 2^-64.
 [[nodiscard]] bool IsClosed(const Solid& solid);
 
 // Mirroring maps keep the normals outward: the triangles are turned.
@@ -30,6 +30,7 @@ void TransformSolid(const Eigen::Affine3d& T_out_in, Solid& solid);
 void AppendSolid(const Solid& from, Solid& into);
 void AppendSolid(Solid&& from, Solid& into);  // without a copy where `into` is empty
 void FlipSolid(Solid& solid);
+void ShrinkSolid(Solid& solid);  // gives back the memory that it does not use, if that is much
 
 // Finds an earlier point within a tolerance by hashing points to cells much larger than it; only points near a cell's border are looked up
 // in more than one cell. O(1) a point.

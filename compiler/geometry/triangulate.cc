@@ -5,6 +5,7 @@
 #include <CGAL/Triangulation_face_base_with_info_2.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <exception>
@@ -30,28 +31,29 @@ constexpr int kNoLevel = -1;
 double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 double Cross(const Vector2d& a, const Vector2d& b, const Vector2d& c) { return Cross(b - a, c - a); }
 
-// Triangles and strictly convex quads need no triangulator. False: it is neither.
-bool TriangulateSmall(const Ring2& ring, std::vector<Vector3i>& triangles) {
+// Turned one way at each corner, and all of it to the same side of each line from the first corner to another: strictly convex.
+bool IsConvex(std::span<const Vector2d> ring, double side) {
+  const size_t n = ring.size();
+  for (size_t i = 0; i < n; ++i) {
+    if (!(side * Cross(ring[i], ring[(i + 1) % n], ring[(i + 2) % n]) > 0)) return false;
+    if (i > 0 && i + 1 < n && !(side * Cross(ring[0], ring[i], ring[i + 1]) > 0)) return false;
+  }
+  return true;
+}
+
+// Triangles and strictly convex polygons need no triangulator. False: it is neither.
+bool TriangulateConvex(std::span<const Vector2d> ring, std::vector<Vector3i>& triangles) {
   if (ring.size() == 3) {
     const double area = Cross(ring[0], ring[1], ring[2]);
     if (area > 0) triangles.emplace_back(0, 1, 2);
     if (area < 0) triangles.emplace_back(0, 2, 1);
     return true;
   }
-  if (ring.size() != 4) return false;
-  const double a = Cross(ring[0], ring[1], ring[2]), b = Cross(ring[1], ring[2], ring[3]);
-  const double c = Cross(ring[2], ring[3], ring[0]), d = Cross(ring[3], ring[0], ring[1]);
-  if (a > 0 && b > 0 && c > 0 && d > 0) {
-    triangles.emplace_back(0, 1, 2);
-    triangles.emplace_back(0, 2, 3);
-    return true;
-  }
-  if (a < 0 && b < 0 && c < 0 && d < 0) {
-    triangles.emplace_back(0, 2, 1);
-    triangles.emplace_back(0, 3, 2);
-    return true;
-  }
-  return false;
+  if (ring.size() < 3) return false;
+  const double side = Cross(ring[0], ring[1], ring[2]) > 0 ? 1 : -1;
+  if (!IsConvex(ring, side)) return false;
+  for (int i = 1; i + 1 < static_cast<int>(ring.size()); ++i) triangles.emplace_back(0, side > 0 ? i : i + 1, side > 0 ? i + 1 : i);
+  return true;
 }
 
 // Numbers each face by how many rings' sides lie between it and the outside.
@@ -117,6 +119,25 @@ bool AllFinite(std::span<const Ring2> rings) {
   return true;
 }
 
+// A plane with axes of its own, for a face.
+struct FacePlane {
+  Vector3d origin, u, v;
+  [[nodiscard]] Vector2d Flat(const Vector3d& p) const { return {u.dot(p - origin), v.dot(p - origin)}; }
+};
+
+// AppendFace of one short convex ring, as most faces are, without any memory of its own. False: it is no such ring.
+bool AppendSmallFace(const Ring3& ring, const FacePlane& plane, Solid& solid) {
+  std::array<Vector2d, 8> flat;
+  if (ring.size() > flat.size()) return false;
+  for (size_t i = 0; i < ring.size(); ++i) flat[i] = plane.Flat(ring[i]);
+  const size_t first = solid.triangles.size();
+  if (!TriangulateConvex(std::span<const Vector2d>(flat).first(ring.size()), solid.triangles) || solid.triangles.size() == first) return false;
+  const int base = static_cast<int>(solid.vertices.size());
+  for (size_t t = first; t < solid.triangles.size(); ++t) solid.triangles[t].array() += base;
+  solid.vertices.insert(solid.vertices.end(), ring.begin(), ring.end());
+  return true;
+}
+
 Vector3d NewellNormal(const Ring3& ring) {
   Vector3d n = Vector3d::Zero();
   for (size_t i = 0; i < ring.size(); ++i) n += (ring[i] - ring[0]).cross(ring[(i + 1) % ring.size()] - ring[0]);
@@ -135,7 +156,7 @@ Triangulation2 TriangulatePolygon(std::span<const Ring2> rings) {
   Triangulation2 out;
   for (const Ring2& ring : rings) out.points.insert(out.points.end(), ring.begin(), ring.end());
   if (rings.empty() || !AllFinite(rings)) return out;
-  if (rings.size() == 1 && TriangulateSmall(rings[0], out.triangles)) return out;
+  if (rings.size() == 1 && TriangulateConvex(rings[0], out.triangles)) return out;
   try {
     (void)TriangulateWithCgal(rings, out);
   } catch (const std::exception&) {  // CGAL's preconditions on degenerate input
@@ -150,12 +171,13 @@ bool AppendFace(std::span<const Ring3> rings, Solid& solid) {
   const double length = normal.norm();
   if (!(length > 0) || !std::isfinite(length)) return false;
   normal /= length;
-  const Vector3d u = normal.unitOrthogonal(), v = normal.cross(u);
-  const Vector3d origin = rings[0][0];
+  const Vector3d u = normal.unitOrthogonal();
+  const FacePlane plane{rings[0][0], u, normal.cross(u)};
+  if (rings.size() == 1 && AppendSmallFace(rings[0], plane, solid)) return true;
   std::vector<Ring2> flat(rings.size());
   size_t given = 0;
   for (size_t r = 0; r < rings.size(); ++r) {
-    for (const Vector3d& p : rings[r]) flat[r].emplace_back(u.dot(p - origin), v.dot(p - origin));
+    for (const Vector3d& p : rings[r]) flat[r].push_back(plane.Flat(p));
     given += rings[r].size();
   }
   const Triangulation2 result = TriangulatePolygon(flat);
@@ -163,7 +185,7 @@ bool AppendFace(std::span<const Ring3> rings, Solid& solid) {
   const int base = static_cast<int>(solid.vertices.size());
   for (const Ring3& ring : rings) solid.vertices.insert(solid.vertices.end(), ring.begin(), ring.end());
   for (size_t i = given; i < result.points.size(); ++i) {
-    solid.vertices.push_back(origin + u * result.points[i].x() + v * result.points[i].y());
+    solid.vertices.push_back(plane.origin + plane.u * result.points[i].x() + plane.v * result.points[i].y());
   }
   for (const Vector3i& t : result.triangles) solid.triangles.emplace_back(t.array() + base);
   return true;

@@ -24,16 +24,16 @@ struct Triangulation2 {
 template <class Point>
 void DropRepeatedPoints(double tolerance_m, std::vector<Point>& ring) {
   const auto same = [&](const Point& a, const Point& b) { return (a - b).squaredNorm() <= tolerance_m * tolerance_m; };
-  std::vector<Point> kept;
-  for (const Point& p : ring) {
-    if (kept.empty() || !same(kept.back(), p)) kept.push_back(p);
+  size_t kept = 0;
+  for (size_t i = 0; i < ring.size(); ++i) {
+    if (kept == 0 || !same(ring[kept - 1], ring[i])) ring[kept++] = ring[i];
   }
-  while (kept.size() > 1 && same(kept.front(), kept.back())) kept.pop_back();
-  ring = std::move(kept);
+  while (kept > 1 && same(ring[0], ring[kept - 1])) --kept;
+  ring.resize(kept);
 }
 
 // The area inside an odd number of the rings, whatever their orientation. Every point of the rings is a corner of a triangle, so that the
-// result fits to its neighbours. Rings may touch or cross. Convex quads and triangles are done directly, the rest by a constrained
+// result fits to its neighbours. Rings may touch or cross. Triangles and strictly convex polygons are done directly, the rest by a constrained
 // Delaunay triangulation with exact predicates (CGAL). No triangles for degenerate input, and for rings whose sides cross more often than
 // they have corners. O(n log n) for usual rings.
 [[nodiscard]] Triangulation2 TriangulatePolygon(std::span<const Ring2> rings);

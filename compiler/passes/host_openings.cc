@@ -25,7 +25,7 @@ struct Candidate {
   uint32_t opening = kNoIndex;
   std::vector<uint32_t> fillings;
   uint32_t wall = kNoIndex;
-  std::vector<Eigen::Vector3d> points;  // of the void, else of the fillings
+  std::vector<Eigen::Vector2d> outline;  // convex hull from above, of the void, else of the fillings: their vertices would take memory
   Eigen::AlignedBox3d box;
   bool has_void = false;
 };
@@ -98,13 +98,16 @@ class Host {
   }
 
   void AddCandidate(Candidate c) {
-    if (c.opening != kNoIndex) c.points = plan_.openings[c.opening].body.vertices;
-    c.has_void = !c.points.empty();
+    const auto add = [&c](const std::vector<Eigen::Vector3d>& vertices) {
+      for (const auto& p : vertices) c.outline.push_back(p.head<2>()), c.box.extend(p);
+    };
+    if (c.opening != kNoIndex) add(plan_.openings[c.opening].body.vertices);
+    c.has_void = !c.outline.empty();
     for (uint32_t e : c.fillings) {
-      if (!c.has_void) c.points.insert(c.points.end(), plan_.elements[e].body.vertices.begin(), plan_.elements[e].body.vertices.end());
+      if (!c.has_void) add(plan_.elements[e].body.vertices);
     }
-    for (const auto& p : c.points) c.box.extend(p);
-    if (c.points.empty()) {
+    c.outline = ConvexHull(std::move(c.outline));
+    if (c.outline.empty()) {
       const SourceLocation& where = LocationOf(c);
       sink_.Emit(DiagnosticKind::kOpeningNotPlaced, where, fmt::format("{} has no solid to place it by; it is left out", where.ToString()));
       return;
@@ -145,12 +148,11 @@ class Host {
     const std::vector<Eigen::Vector2d> common = CommonCorners(section.rings, footprint->rings);
     if (common.empty()) return;
     const double z_min_m = c.box.min().z(), z_max_m = c.box.max().z();
-    c.points.clear();
+    c.outline = ConvexHull(common);
     c.box.setEmpty();
     for (const auto& p : common) {
-      for (double z : {z_min_m, z_max_m}) c.points.emplace_back(p.x(), p.y(), z);
+      for (double z : {z_min_m, z_max_m}) c.box.extend(Eigen::Vector3d(p.x(), p.y(), z));
     }
-    for (const auto& p : c.points) c.box.extend(p);
   }
 
   const SourceLocation& LocationOf(const Candidate& c) const {
@@ -174,7 +176,7 @@ class Host {
       if (best == nullptr) continue;
       best->fillings = loose.fillings;
       if (loose.opening != kNoIndex) best->opening = Merged(best->opening, loose.opening);
-      loose.points.clear();  // spent
+      loose.outline.clear();  // spent
     }
   }
 
@@ -182,7 +184,7 @@ class Host {
   uint32_t Merged(uint32_t of_void, uint32_t of_filling) const { return plan_.openings[of_filling].width_m ? of_filling : of_void; }
 
   std::optional<HostedOpening> Place(const Candidate& c) {
-    if (c.points.empty()) return std::nullopt;
+    if (c.outline.empty()) return std::nullopt;
     HostedOpening out;
     out.opening = c.opening;
     out.fillings = c.fillings;
@@ -259,9 +261,7 @@ class Host {
   }
 
   void AlignToSelf(const Candidate& c, HostedOpening& out) const {
-    std::vector<Eigen::Vector2d> points;
-    for (const auto& p : c.points) points.push_back(p.head<2>());
-    const Ring box = LeastRectangle(std::move(points));
+    const Ring box = LeastRectangle(c.outline);
     if (box.size() < 4) return;
     const Eigen::Vector2d u = box[1] - box[0], v = box[2] - box[1];
     out.along = (u.norm() >= v.norm() ? u : v).normalized();
@@ -298,7 +298,7 @@ class Host {
     out.along = DirectionAt(w, rings, out.center);
     const Eigen::Vector2d across = Rot90Ccw(out.along);
     Eigen::AlignedBox2d extent;
-    for (const auto& p : c.points) extent.extend(Eigen::Vector2d(out.along.dot(p.head<2>()), across.dot(p.head<2>())));
+    for (const auto& p : c.outline) extent.extend(Eigen::Vector2d(out.along.dot(p), across.dot(p)));
     out.width_m = extent.sizes().x();
     const Wall& wall = graph_.walls[w];
     const double u = extent.center().x();

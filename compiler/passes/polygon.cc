@@ -76,6 +76,8 @@ double WidthAt(const std::vector<Edge>& edges, double y) {
   return width;
 }
 
+}  // namespace
+
 std::vector<Eigen::Vector2d> ConvexHull(std::vector<Eigen::Vector2d> points) {
   std::sort(points.begin(), points.end(), LexicographicallyLess);
   points.erase(std::unique(points.begin(), points.end()), points.end());
@@ -91,8 +93,6 @@ std::vector<Eigen::Vector2d> ConvexHull(std::vector<Eigen::Vector2d> points) {
   hull.pop_back();
   return hull;
 }
-
-}  // namespace
 
 Eigen::Vector2d Centroid(std::span<const Ring> rings) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero(), mean = Eigen::Vector2d::Zero();

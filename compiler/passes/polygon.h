@@ -39,6 +39,9 @@ namespace plumb::compiler {
 [[nodiscard]] double DistanceToRings(const Eigen::Vector2d& p, std::span<const Ring> rings);
 [[nodiscard]] Eigen::AlignedBox2d BoundingBox(std::span<const Ring> rings);
 
+// Its corners, counter-clockwise; all distinct points in order where they lie on a line.
+[[nodiscard]] std::vector<Eigen::Vector2d> ConvexHull(std::vector<Eigen::Vector2d> points);
+
 // Corners of the rectangle of least area around the points, counter-clockwise; fewer than 4 if they lie on a line.
 [[nodiscard]] Ring LeastRectangle(std::vector<Eigen::Vector2d> points);
 

@@ -14,7 +14,7 @@ std::string RoomName(const AGraph& g, RoomId id) { return id.valid() ? g.rooms[i
 
 double Degrees(double rad) { return rad * 180 / std::numbers::pi; }
 
-void WriteHead(const AGraph& g, Writer write) {
+void WriteHead(const AGraph& g, size_t triangles, Writer write) {
   fmt::format_to(write, "source    {} ({})\n", g.source_path, g.source_format);
   if (!g.tool_version.empty()) fmt::format_to(write, "made by   plumb {}\n", g.tool_version);
   if (!g.options.empty()) fmt::format_to(write, "options  ");
@@ -22,7 +22,7 @@ void WriteHead(const AGraph& g, Writer write) {
   if (!g.options.empty()) fmt::format_to(write, "\n");
   fmt::format_to(write, "contents  {} storeys, {} walls, {} surfaces, {} rooms, {} doorways, {} windows, {} columns, {} triangles\n",
                  g.storeys.size(), g.walls.size(), g.surfaces.size(), g.rooms.size(), g.doorways.size(), g.windows.size(), g.columns.size(),
-                 g.mesh.triangles.size());
+                 triangles);
   if (g.true_north_rad) fmt::format_to(write, "north     {:.1f} deg counter-clockwise from +x\n", Degrees(*g.true_north_rad));
 }
 
@@ -59,10 +59,10 @@ void WriteAliases(const AGraph& g, Writer write) {
 
 }  // namespace
 
-std::string AGraphToText(const AGraph& g) {
+std::string AGraphToText(const AGraph& g, size_t triangles) {
   std::string out;
   const auto write = std::back_inserter(out);
-  WriteHead(g, write);
+  WriteHead(g, triangles, write);
   for (size_t s = 0; s < g.storeys.size(); ++s) WriteStorey(g, StoreyId(s), write);
   WriteAliases(g, write);
   return out;

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "schema/agraph_json.h"
@@ -55,7 +56,12 @@ Expected<void> WriteNav2(const AGraph& graph, const InspectFlags& flags, StoreyI
 }
 
 Status RunInspect(const InspectFlags& flags, Session& session) {
-  const auto graph = ReadAGraphFile(flags.path);
+  auto file = AGraphFile::Open(flags.path);
+  if (!file) return session.Fail(file.error());
+  const size_t triangles = file->triangle_count();
+  // Only what is cut through the building needs its triangles.
+  const bool cuts = !flags.svg.empty() || !flags.nav2.empty();
+  const Expected<AGraph> graph = cuts ? std::move(*file).Load() : file->graph();
   if (!graph) return session.Fail(graph.error());
   StoreyId storey;
   if (!flags.storey.empty()) {
@@ -75,7 +81,7 @@ Status RunInspect(const InspectFlags& flags, Session& session) {
   }
   const bool wrote = !flags.svg.empty() || !flags.graphml.empty() || !flags.nav2.empty();
   if (flags.json) session.console.Print(AGraphToJson(*graph));
-  if (!flags.json && !wrote) session.console.Print(AGraphToText(*graph));
+  if (!flags.json && !wrote) session.console.Print(AGraphToText(*graph, triangles));
   return Status::kFine;
 }
 

@@ -146,6 +146,7 @@ bool CurveReader::TooLong(size_t points, uint32_t whole) const {
 
 Ring3 CurveReader::Points(StepValue list, uint32_t whole) const {
   Ring3 points;
+  points.reserve(4);  // of most loops
   for (const StepValue item : list.Items()) {
     points.push_back(placements_.Point(item));
     if (points.size() > kMaxCurvePoints) break;

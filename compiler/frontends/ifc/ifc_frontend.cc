@@ -226,6 +226,7 @@ class Frontend {
   void AddElements(uint32_t product_index, PlanElement element, ShapeParts parts) {
     Solid glass;
     for (ShapePart& part : parts) AppendSolid(std::move(part.solid), part.look == Look::kGlass ? glass : element.body);
+    for (Solid* solid : {&element.body, &element.uncut, &glass}) ShrinkSolid(*solid);
     element_of_[product_index] = static_cast<uint32_t>(plan_.elements.size());
     if (element.body.empty() && !glass.empty()) {
       element.material = Material::kGlass;

@@ -3,11 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "compiler/frontends/ifc/ifc_openings.h"
 
 namespace plumb::compiler {
+namespace {
+
+constexpr double kApart_m = 1e-3;  // openings this far apart are cut in one step: much more than the planes that cut are thick
+
+}  // namespace
 
 OpeningTable::OpeningTable(const IfcModel& model, PlacementReader& placements, const Relations& relations, ProductTable& products,
                            const IfcOptions& options)
@@ -52,22 +58,53 @@ std::vector<Opening*> OpeningTable::Cutting(uint32_t product) {
 }
 
 void OpeningTable::Cut(uint32_t product, ShapeParts& parts) {
+  std::vector<Tool> tools;
+  std::vector<Eigen::AlignedBox3d> boxes;
   for (Opening* opening : Cutting(product)) {
-    for (const Solid& tool : opening->solids) {
-      for (ShapePart& part : parts) {
-        if (!SpendCut(part.solid, tool, opening->instance)) return;
-        opening->cuts |= CutOpening(model_, {products_[product].instance, opening->instance}, options_, tool, part.solid);
-      }
+    for (const Solid& solid : opening->solids) {
+      tools.push_back({opening, &solid});
+      boxes.push_back(Bounds(solid));
+    }
+  }
+  std::vector<Tool> group;
+  for (const std::vector<size_t>& numbers : GroupsApart(boxes, kApart_m)) {
+    group.clear();
+    for (const size_t number : numbers) group.push_back(tools[number]);
+    for (ShapePart& part : parts) {
+      if (!CutGroup(product, group, part.solid)) return;
     }
   }
   std::erase_if(parts, [](const ShapePart& part) { return part.solid.empty(); });
 }
 
-// Each cut leaves more triangles to the next: thousands of openings in one wall would take hours.
-bool OpeningTable::SpendCut(const Solid& body, const Solid& tool, uint32_t opening) {
-  cut_triangles_ += body.triangles.size() + tool.triangles.size();
+bool OpeningTable::CutGroup(uint32_t product, std::span<const Tool> group, Solid& body) {
+  const Eigen::AlignedBox3d box = Bounds(body);
+  std::vector<Tool> tools;
+  std::copy_if(group.begin(), group.end(), std::back_inserter(tools), [&](const Tool& tool) { return box.intersects(Bounds(*tool.solid)); });
+  if (tools.size() > 1) {
+    if (!SpendCut(body, tools)) return false;
+    std::vector<const Solid*> solids;
+    for (const Tool& tool : tools) solids.push_back(tool.solid);
+    if (const auto cuts = CutApart(solids, options_, body)) {
+      for (size_t t = 0; t < tools.size(); ++t) tools[t].opening->cuts |= (*cuts)[t];
+      return true;
+    }
+  }
+  for (const Tool& tool : tools) {
+    if (!SpendCut(body, {&tool, 1})) return false;
+    const CutPair pair = {products_[product].instance, tool.opening->instance};
+    tool.opening->cuts |= CutOpening(model_, pair, options_, *tool.solid, body);
+  }
+  return true;
+}
+
+// Each cut leaves more triangles to the next: thousands of openings on top of one another would take hours.
+bool OpeningTable::SpendCut(const Solid& body, std::span<const Tool> tools) {
+  cut_triangles_ += body.triangles.size();
+  for (const Tool& tool : tools) cut_triangles_ += tool.solid->triangles.size();
   if (cut_triangles_ <= options_.max_cut_triangles) return true;
   if (!model_.is_too_complex()) {
+    const uint32_t opening = tools.front().opening->instance;
     model_.Emit(DiagnosticKind::kPlanTooComplex, opening,
                 fmt::format("the openings up to {} take too long to cut out of their walls: over {} triangles, counted for each cut",
                             model_.Label(opening), options_.max_cut_triangles));

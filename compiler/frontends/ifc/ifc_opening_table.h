@@ -1,6 +1,7 @@
 // The openings of an IFC file: what they cut and what fills them.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "compiler/frontends/ifc/ifc_product_table.h"
@@ -34,9 +35,16 @@ class OpeningTable {
   void AssignFillings();
 
  private:
+  // A solid of an opening that is to be cut out of something.
+  struct Tool {
+    Opening* opening;
+    const Solid* solid;
+  };
   [[nodiscard]] std::vector<Opening*> Cutting(uint32_t product);
+  // Out of one part. False: beyond the limit.
+  bool CutGroup(uint32_t product, std::span<const Tool> group, Solid& body);
   // False, with a PlanTooComplex diagnostic, beyond IfcOptions.max_cut_triangles.
-  [[nodiscard]] bool SpendCut(const Solid& body, const Solid& tool, uint32_t opening);
+  [[nodiscard]] bool SpendCut(const Solid& body, std::span<const Tool> tools);
   void AssignByPlace(const std::vector<char>& is_filling);
 
   const IfcModel& model_;

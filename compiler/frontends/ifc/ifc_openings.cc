@@ -64,6 +64,34 @@ bool CutOpening(const IfcModel& model, CutPair pair, const IfcOptions& options, 
   return removed_m3 > kMinRemoved_m3;
 }
 
+std::optional<std::vector<bool>> CutApart(std::span<const Solid* const> tools, const IfcOptions& options, Solid& body) {
+  const double volume_m3 = Volume(body);
+  if (body.empty() || volume_m3 <= kMinRemoved_m3) return std::nullopt;
+  Expected<DifferenceOfMany> cut = SubtractAll(body, tools, {.plane_epsilon_m = options.plane_epsilon_m});
+  if (!cut) return std::nullopt;
+  double tools_m3 = 0;
+  for (const Solid* tool : tools) tools_m3 += Volume(*tool);
+  const double removed_m3 = volume_m3 - Volume(cut->rest), tolerance_m3 = 1e-6 + 1e-6 * volume_m3;
+  if (removed_m3 < -tolerance_m3 || removed_m3 > std::min(volume_m3, tools_m3) + tolerance_m3) return std::nullopt;
+  body = std::move(cut->rest);
+  return std::move(cut->cuts);
+}
+
+std::vector<std::vector<size_t>> GroupsApart(std::span<const Eigen::AlignedBox3d> boxes, double margin_m) {
+  constexpr size_t kMaxGroup = 512;  // bounds the search
+  std::vector<std::vector<size_t>> groups;
+  for (size_t i = 0; i < boxes.size(); ++i) {
+    const Eigen::Vector3d margin = Eigen::Vector3d::Constant(margin_m);
+    const Eigen::AlignedBox3d grown(boxes[i].min() - margin, boxes[i].max() + margin);
+    const auto takes = [&](const std::vector<size_t>& group) {
+      return group.size() < kMaxGroup && std::none_of(group.begin(), group.end(), [&](size_t k) { return boxes[k].intersects(grown); });
+    };
+    const auto group = std::find_if(groups.begin(), groups.end(), takes);
+    (group == groups.end() ? groups.emplace_back() : *group).push_back(i);
+  }
+  return groups;
+}
+
 Solid PieceCutBefore(const Solid& opening, const Eigen::Isometry3d& T_plan_wall, const Solid& wall, const IfcOptions& options) {
   constexpr double kMaxThickness_m = 1, kMinLengthRatio = 2;
   Eigen::AlignedBox3d box;

@@ -6,13 +6,10 @@ namespace plumb::compiler {
 namespace {
 
 constexpr int kMaxSteps = 64;  // up a chain of wholes
-constexpr char kUnstated = 0, kInternal = 1, kExternal = 2;
 
 }  // namespace
 
 Relations::Relations(const IfcModel& model) : model_(model) {
-  for (auto* list : {&whole_, &structure_, &host_, &opening_, &material_, &type_}) list->assign(model.size(), StepFile::kNone);
-  external_.assign(model.size(), kUnstated);
   ReadOneToMany(IfcType::kIfcRelNests, attribute::kAggregateWhole, attribute::kAggregateParts, whole_);
   ReadOneToMany(IfcType::kIfcRelAggregates, attribute::kAggregateWhole, attribute::kAggregateParts, whole_);
   ReadOneToMany(IfcType::kIfcRelContainedInSpatialStructure, attribute::kContainingStructure, attribute::kContainedElements, structure_);
@@ -24,14 +21,14 @@ Relations::Relations(const IfcModel& model) : model_(model) {
 }
 
 // `many` is a list of references or a single one.
-void Relations::ReadOneToMany(IfcType relation, size_t one, size_t many, std::vector<uint32_t>& one_of_many) const {
+void Relations::ReadOneToMany(IfcType relation, size_t one, size_t many, InstanceMap& one_of_many) const {
   for (const uint32_t index : model_.InstancesOf(relation)) {
     const IfcInstance rel = model_.Get(index);
     const uint32_t relating = model_.Resolve(rel[one]);
     if (relating == StepFile::kNone) continue;
     const auto set = [&](StepValue reference) {
       const uint32_t related = model_.Resolve(reference);
-      if (related != StepFile::kNone && related != relating) one_of_many[related] = relating;
+      if (related != StepFile::kNone && related != relating) one_of_many.Set(related, relating);
     };
     if (rel[many].kind() == StepValue::Kind::kReference) {
       set(rel[many]);
@@ -56,7 +53,7 @@ void Relations::ReadExternal() {
       if (!value) continue;
       for (const StepValue object : rel[attribute::kRelatedObjects].Items()) {
         const uint32_t target = model_.Resolve(object);
-        if (target != StepFile::kNone) external_[target] = *value ? kExternal : kInternal;
+        if (target != StepFile::kNone) external_[target] = *value;
       }
     }
   }
@@ -69,8 +66,8 @@ uint32_t Relations::MaterialOf(uint32_t object) const {
 }
 
 std::optional<bool> Relations::IsExternal(uint32_t element) const {
-  if (external_[element] == kUnstated) return std::nullopt;
-  return external_[element] == kExternal;
+  const auto stated = external_.find(element);
+  return stated == external_.end() ? std::nullopt : std::optional(stated->second);
 }
 
 uint32_t Relations::StoreyOf(uint32_t object) const {

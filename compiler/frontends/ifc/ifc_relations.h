@@ -1,13 +1,27 @@
-// Relations between the objects of an IFC file, turned round so that each object knows its own: flat arrays by instance.
+// Relations between the objects of an IFC file, turned round so that each object knows its own.
 #pragma once
 
+#include <cstdint>
 #include <optional>
-#include <utility>
-#include <vector>
+#include <unordered_map>
 
 #include "compiler/frontends/ifc/ifc_model.h"
 
 namespace plumb::compiler {
+
+// From some instances to one other each. Few of a file's instances are in a relation: far smaller than a list of all.
+class InstanceMap {
+ public:
+  // StepFile::kNone where there is none.
+  [[nodiscard]] uint32_t operator[](uint32_t from) const {
+    const auto found = to_.find(from);
+    return found == to_.end() ? StepFile::kNone : found->second;
+  }
+  void Set(uint32_t from, uint32_t to) { to_[from] = to; }
+
+ private:
+  std::unordered_map<uint32_t, uint32_t> to_;
+};
 
 class Relations {
  public:
@@ -28,12 +42,12 @@ class Relations {
   [[nodiscard]] std::optional<double> LayerThickness_m(uint32_t object) const;
 
  private:
-  void ReadOneToMany(IfcType relation, size_t one, size_t many, std::vector<uint32_t>& one_of_many) const;
+  void ReadOneToMany(IfcType relation, size_t one, size_t many, InstanceMap& one_of_many) const;
   void ReadExternal();
 
   const IfcModel& model_;
-  std::vector<uint32_t> whole_, structure_, host_, opening_, material_, type_;
-  std::vector<char> external_;
+  InstanceMap whole_, structure_, host_, opening_, material_, type_;
+  std::unordered_map<uint32_t, bool> external_;
 };
 
 }  // namespace plumb::compiler

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "compiler/frontends/ifc/ifc_primitives.h"
-#include "compiler/geometry/csg.h"
 #include "compiler/geometry/sweep.h"
 
 namespace plumb::compiler {
@@ -36,10 +35,6 @@ ShapeParts OnePart(Solid solid) {
 }
 
 bool IsBoolean(IfcType type) { return type == IfcType::kIfcBooleanResult || type == IfcType::kIfcBooleanClippingResult; }
-
-bool IsHalfSpace(IfcType type) {
-  return type == IfcType::kIfcHalfSpaceSolid || type == IfcType::kIfcPolygonalBoundedHalfSpace || type == IfcType::kIfcBoxedHalfSpace;
-}
 
 // How well a representation serves as the body: higher is better, 0 not at all.
 int BodyRank(const IfcInstance& representation) {
@@ -78,7 +73,13 @@ ShapeReader::ShapeReader(const IfcModel& model, const PlacementReader& placement
       options_(options),
       curves_(model, placements, options.chord_tolerance_m),
       profiles_(model, placements, curves_, options.chord_tolerance_m),
-      faces_(model, placements, curves_, options_) {}
+      faces_(model, placements, curves_, options_),
+      booleans_(model, placements, curves_, options_) {
+  for (const uint32_t item : model.InstancesOf(IfcType::kIfcMappedItem)) {
+    const auto map = model.Get(item)[attribute::kMappingSource].Reference();
+    if (map) ++map_items_left_[model.file().Find(*map)];
+  }
+}
 
 ShapeParts ShapeReader::Body(const IfcInstance& definition_shape) {
   if (!definition_shape || definition_shape.type != IfcType::kIfcProductDefinitionShape) return {};
@@ -219,7 +220,16 @@ ShapeParts ShapeReader::Mapped(const IfcInstance& item, int depth) {
     for (ShapePart& part : parts) TransformPart(T_map_origin, part);
     known_parts = std::move(parts);
   }
-  ShapeParts parts = *known_parts;
+  // What nothing refers to any more is handed on, not copied; should it be, in a round-about way, it is read once more and then stays.
+  size_t& items_left = map_items_left_[map.index];
+  const bool is_last = items_left > 0 && --items_left == 0;
+  ShapeParts parts;
+  if (is_last) {
+    parts = std::move(*known_parts);
+    mapped_.erase(map.index);
+  } else {
+    parts = *known_parts;
+  }
   const Affine3d T = placements_.Operator(item[attribute::kMappingTarget]);
   for (ShapePart& part : parts) TransformPart(T, part);
   KeepInRange(model_, item.index, parts);
@@ -289,9 +299,13 @@ ShapeParts ShapeReader::Primitive(const IfcInstance& item) {
 
 ShapeParts ShapeReader::SurfaceModel(const IfcInstance& item) {
   Solid solid;
-  for (const StepValue shell : item[attribute::kModelShells].Items()) AppendSolid(faces_.Shell(model_.Follow(shell)), solid);
+  size_t shells = 0;
+  for (const StepValue shell : item[attribute::kModelShells].Items()) {
+    AppendSolid(faces_.Shell(model_.Follow(shell)), solid);
+    ++shells;
+  }
   // Shells that only close together are one solid.
-  if (!IsClosed(solid)) {
+  if (shells > 1 && !IsClosed(solid)) {
     WeldSolid(options_.weld_tolerance_m, solid);
     OrientOutward(solid);
   }
@@ -334,7 +348,7 @@ void ShapeReader::Combine(const IfcInstance& item, int depth, ShapeParts& parts)
       model_.Emit(DiagnosticKind::kUnsupportedGeometry, item.index,
                   fmt::format("{} joins a half space, which has no end; it is left out", model_.Label(item.index)));
     } else {
-      CutByHalfSpace(second, item.index, op == "INTERSECTION", parts);
+      booleans_.CutByHalfSpace(second, item.index, op == "INTERSECTION", parts);
     }
     return;
   }
@@ -343,76 +357,10 @@ void ShapeReader::Combine(const IfcInstance& item, int depth, ShapeParts& parts)
   if (op == "UNION") {
     parts.insert(parts.end(), std::make_move_iterator(tools.begin()), std::make_move_iterator(tools.end()));
   } else if (op == "INTERSECTION") {
-    IntersectParts(tools, item.index, parts);
+    booleans_.Intersect(tools, item.index, parts);
   } else {
-    SubtractParts(tools, item.index, parts);
+    booleans_.Subtract(tools, item.index, parts);
   }
-}
-
-void ShapeReader::SubtractParts(const ShapeParts& tools, uint32_t result, ShapeParts& parts) const {
-  const CsgOptions csg{.plane_epsilon_m = options_.plane_epsilon_m};
-  for (ShapePart& part : parts) {
-    for (const ShapePart& tool : tools) {
-      Expected<Solid> rest = Subtract(part.solid, tool.solid, csg);
-      if (rest) {
-        part.solid = std::move(*rest);
-      } else {
-        model_.Emit(DiagnosticKind::kBooleanFailed, result, fmt::format("{} is left out: {}", model_.Label(result), rest.error().message));
-      }
-    }
-  }
-  std::erase_if(parts, [](const ShapePart& part) { return part.solid.empty(); });
-}
-
-// a and b = a - (a - b).
-void ShapeReader::IntersectParts(const ShapeParts& tools, uint32_t result, ShapeParts& parts) const {
-  ShapeParts outside = parts;
-  SubtractParts(tools, result, outside);
-  SubtractParts(outside, result, parts);
-}
-
-void ShapeReader::CutByHalfSpace(const IfcInstance& half_space, uint32_t result, bool keep_inside, ShapeParts& parts) const {
-  const IfcInstance plane = model_.Follow(half_space[attribute::kHalfSpaceSurface]);
-  if (!plane || plane.type != IfcType::kIfcPlane) {
-    model_.Emit(DiagnosticKind::kUnsupportedGeometry, half_space.index,
-                fmt::format("the half space {} is not bounded by a plane; the cut is left out", model_.Label(half_space.index)));
-    return;
-  }
-  const Isometry3d T_plane = placements_.AxisPlacement(plane[attribute::kSurfacePosition]);
-  // AgreementFlag true: the plane's normal points out of the half space's material.
-  const bool agreement = half_space[attribute::kHalfSpaceAgreement].Boolean().value_or(true);
-  const Vector3d n = agreement ? Vector3d(T_plane.linear().col(2)) : Vector3d(-T_plane.linear().col(2));
-  const double d_m = -n.dot(T_plane.translation());
-  const CsgOptions csg{.plane_epsilon_m = options_.plane_epsilon_m};
-  const bool bounded = half_space.type == IfcType::kIfcPolygonalBoundedHalfSpace;
-  Ring2 boundary;
-  Isometry3d T_boundary = Isometry3d::Identity();
-  if (bounded) {
-    boundary = curves_.ReadRing(model_.Follow(half_space[attribute::kBoundedBoundary]), nullptr);
-    T_boundary = placements_.AxisPlacement(half_space[attribute::kBoundedPosition]);
-  }
-  for (ShapePart& part : parts) {
-    Expected<Solid> rest = Solid();
-    if (bounded) {
-      // The prism over the boundary, as long as the part, cut by the plane.
-      Eigen::AlignedBox3d box;
-      for (const Vector3d& v : part.solid.vertices) box.extend(T_boundary.inverse() * v);
-      const double low_m = box.min().z() - 1, high_m = box.max().z() + 1;
-      Solid prism = Extrude({boundary}, Vector3d::UnitZ() * (high_m - low_m));
-      TransformSolid(Affine3d(T_boundary.matrix()) * Eigen::Translation3d(0, 0, low_m), prism);
-      rest = CutByPlane(prism, n, d_m, csg);
-      if (rest) rest = Subtract(part.solid, *rest, csg);
-      if (rest && keep_inside) rest = Subtract(part.solid, *rest, csg);
-    } else {
-      rest = keep_inside ? CutByPlane(part.solid, n, d_m, csg) : CutByPlane(part.solid, -n, -d_m, csg);
-    }
-    if (rest) {
-      part.solid = std::move(*rest);
-    } else {
-      model_.Emit(DiagnosticKind::kBooleanFailed, result, fmt::format("{} is left out: {}", model_.Label(result), rest.error().message));
-    }
-  }
-  std::erase_if(parts, [](const ShapePart& part) { return part.solid.empty(); });
 }
 
 }  // namespace plumb::compiler

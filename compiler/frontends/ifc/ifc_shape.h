@@ -6,31 +6,16 @@
 #include <unordered_map>
 #include <vector>
 
+#include "compiler/frontends/ifc/ifc_booleans.h"
 #include "compiler/frontends/ifc/ifc_curves.h"
 #include "compiler/frontends/ifc/ifc_faces.h"
 #include "compiler/frontends/ifc/ifc_options.h"
 #include "compiler/frontends/ifc/ifc_profiles.h"
+#include "compiler/frontends/ifc/ifc_shape_part.h"
 #include "compiler/frontends/ifc/ifc_styles.h"
 #include "compiler/geometry/solid.h"
 
 namespace plumb::compiler {
-
-struct ShapePart {
-  Solid solid;
-  Look look = Look::kUnstated;
-  std::vector<Arc> arcs;                                         // exact arcs of an extruded profile ...
-  Eigen::Affine3d T_part_profile = Eigen::Affine3d::Identity();  // ... and where its plane lies
-
-  ShapePart() = default;
-  ShapePart(Solid its_solid, Look its_look) : solid(std::move(its_solid)), look(its_look) {}
-  ShapePart(const ShapePart&) = default;
-  ShapePart& operator=(const ShapePart&) = default;
-  // Eigen's transforms do not state that they never throw: vectors that grow would copy the solids.
-  ShapePart(ShapePart&&) noexcept = default;
-  ShapePart& operator=(ShapePart&&) noexcept = default;
-  ~ShapePart() = default;
-};
-using ShapeParts = std::vector<ShapePart>;
 
 void TransformPart(const Eigen::Affine3d& T_out_part, ShapePart& part);
 // Leaves out the parts with vertices over kMaxCoordinate_m from the origin, with a diagnostic about `instance`.
@@ -63,9 +48,6 @@ class ShapeReader {
   [[nodiscard]] ShapeParts SurfaceModel(const IfcInstance& item);
   void Combine(const IfcInstance& item, int depth, ShapeParts& parts);
   void ApplyLook(const IfcInstance& item, ShapeParts& parts) const;
-  void CutByHalfSpace(const IfcInstance& half_space, uint32_t result, bool keep_inside, ShapeParts& parts) const;
-  void SubtractParts(const ShapeParts& tools, uint32_t result, ShapeParts& parts) const;
-  void IntersectParts(const ShapeParts& tools, uint32_t result, ShapeParts& parts) const;
   [[nodiscard]] Solid BoundingBox(const IfcInstance& item) const;
 
   const IfcModel& model_;
@@ -75,7 +57,9 @@ class ShapeReader {
   CurveReader curves_;
   ProfileReader profiles_;
   FaceReader faces_;
+  BooleanCutter booleans_;
   std::unordered_map<uint32_t, std::optional<ShapeParts>> mapped_;  // by IfcRepresentationMap, in its own frame; none while it is read
+  std::unordered_map<uint32_t, size_t> map_items_left_;             // IfcMappedItems that refer to it and were not met yet
 };
 
 }  // namespace plumb::compiler

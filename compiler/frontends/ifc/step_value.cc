@@ -52,6 +52,15 @@ std::optional<double> ParseReal(std::string_view number, const char* end) {
   return value;
 }
 
+// A number as nearly all are written, in one pass. None: look closer.
+std::optional<double> PlainReal(const char* p, const char* end) {
+  if (p == nullptr || p == end || !(IsDigit(*p) || *p == '-')) return std::nullopt;
+  double value = 0;
+  const auto result = std::from_chars(p, end, value);
+  const bool ends = result.ptr != end && (*result.ptr == ',' || *result.ptr == ')');
+  return result.ec == std::errc() && ends && std::isfinite(value) ? std::optional(value) : std::nullopt;
+}
+
 // NAN, -INF, 1.#IND as programs write them.
 bool NamesNoNumber(const char* p, const char* end) {
   if (p == nullptr) return false;
@@ -133,6 +142,7 @@ StepValue::Kind StepValue::kind() const {
 }
 
 std::optional<double> StepValue::Real() const {
+  if (const std::optional<double> number = PlainReal(begin_, end_)) return number;
   const Kind k = kind();
   if (k == Kind::kTyped) {
     const StepValue inner = Inner();
@@ -233,14 +243,24 @@ StepItems::Iterator& StepItems::Iterator::operator++() {
 }
 
 StepArguments::StepArguments(const char* open, const char* end) : open_(open), end_(end) {
-  const StepItems items(open, end);
-  const char* p = items.empty() ? nullptr : SkipStepSpace(open + 1, end);
-  while (p != nullptr && size_ < kMax) {
-    offsets_[size_++] = static_cast<uint32_t>(p - open);
-    p = SkipStepValue(p, end);
-    p = p != end && *p == ',' ? SkipStepSpace(p + 1, end) : nullptr;
-    if (p == end) p = nullptr;
+  if (StepItems(open, end).empty()) return;
+  offsets_[known_++] = static_cast<uint32_t>(SkipStepSpace(open + 1, end) - open);
+  is_complete_ = false;
+}
+
+bool StepArguments::Reach(size_t i) const {
+  while (i >= known_ && !is_complete_) {
+    const char* p = SkipStepValue(open_ + offsets_[known_ - 1], end_);
+    p = p != end_ && *p == ',' ? SkipStepSpace(p + 1, end_) : end_;
+    is_complete_ = p == end_ || known_ == kMax;
+    if (!is_complete_) offsets_[known_++] = static_cast<uint32_t>(p - open_);
   }
+  return i < known_;
+}
+
+size_t StepArguments::size() const {
+  (void)Reach(kMax);
+  return known_;
 }
 
 }  // namespace plumb::compiler

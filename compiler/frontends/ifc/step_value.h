@@ -70,20 +70,24 @@ class StepItems {
   const char* end_ = nullptr;
 };
 
-// The arguments of an instance with random access. Instances of IFC have fewer than kMax; further ones are not kept.
+// The arguments of an instance with random access. They are looked for as far as they are asked for: the long list at the end of most
+// instances is then gone through once, by who reads it. Instances of IFC have fewer than kMax; further ones are not kept.
 class StepArguments {
  public:
   static constexpr size_t kMax = 24;
   StepArguments() = default;
   StepArguments(const char* open, const char* end);
-  [[nodiscard]] size_t size() const { return size_; }
-  [[nodiscard]] StepValue operator[](size_t i) const { return i < size_ ? StepValue(open_ + offsets_[i], end_) : StepValue(); }
+  [[nodiscard]] size_t size() const;
+  [[nodiscard]] StepValue operator[](size_t i) const { return Reach(i) ? StepValue(open_ + offsets_[i], end_) : StepValue(); }
 
  private:
+  [[nodiscard]] bool Reach(size_t i) const;  // whether there is an argument i
+
   const char* open_ = nullptr;
   const char* end_ = nullptr;
-  size_t size_ = 0;
-  std::array<uint32_t, kMax> offsets_;
+  mutable size_t known_ = 0;
+  mutable bool is_complete_ = true;
+  mutable std::array<uint32_t, kMax> offsets_;
 };
 
 }  // namespace plumb::compiler

@@ -7,6 +7,7 @@
 #include "schema/agraph_json.h"
 #include "schema/agraph_reader.h"
 #include "schema/agraph_writer.h"
+#include "schema/files.h"
 #include "tests/support/house.h"
 #include "tests/support/temporary_folder.h"
 
@@ -117,6 +118,75 @@ TEST(AGraphIo, SurvivesFlippedBits) {
     for (int k = 0; k <= round % 3; ++k) damaged[random() % damaged.size()] ^= static_cast<uint8_t>(1u << (random() % 8));
     EXPECT_TRUE(damaged == bytes || !ReadAGraph(damaged)) << round;
   }
+}
+
+// One checksum for all; written by version 1.1.
+TEST(AGraphIo, ReadsFilesOfTheVersionBefore) {
+  const std::string path = std::string(PLUMB_SOURCE_DIR) + "/tests/unit/schema/data/box_1_1.agraph";
+  const Expected<AGraph> read = ReadAGraphFile(path);
+  ASSERT_TRUE(read) << read.error().message;
+  EXPECT_EQ(read->rooms.size(), 1u);
+  EXPECT_EQ(read->mesh.triangles.size(), 124u);
+  std::vector<uint8_t> bytes = *ReadFileBytes(path);
+  for (size_t at = 8; at < bytes.size(); at += 5) {
+    bytes[at] ^= 4;
+    EXPECT_FALSE(ReadAGraph(bytes)) << at;
+    bytes[at] ^= 4;
+  }
+}
+
+class OpenedFile : public ::testing::Test {
+ protected:
+  // The house with one byte changed.
+  std::string Changed(size_t at) {
+    std::vector<uint8_t> bytes = bytes_;
+    bytes[at] ^= 16;
+    EXPECT_TRUE(WriteFileAtomically(path_, bytes));
+    return path_;
+  }
+  const test::TemporaryFolder folder_;
+  const std::string path_ = folder_ / "house.agraph";
+  const AGraph house_ = test::MakeHouse();
+  const std::vector<uint8_t> bytes_ = WriteAGraph(house_);
+  const size_t mesh_bytes_ = house_.mesh.vertices.size() * 12 + house_.mesh.triangles.size() * 16;
+};
+
+TEST_F(OpenedFile, GivesTheTrianglesWhenAsked) {
+  ASSERT_TRUE(WriteAGraphFile(house_, path_));
+  Expected<AGraphFile> file = AGraphFile::Open(path_);
+  ASSERT_TRUE(file) << file.error().message;
+  EXPECT_EQ(AGraphToJson(file->graph()), AGraphToJson(house_));
+  EXPECT_TRUE(file->graph().mesh.triangles.empty());
+  EXPECT_EQ(file->triangle_count(), house_.mesh.triangles.size());
+  const Expected<AGraph> whole = std::move(*file).Load();
+  ASSERT_TRUE(whole) << whole.error().message;
+  EXPECT_EQ(WriteAGraph(*whole), bytes_);
+}
+
+TEST_F(OpenedFile, OutlivesAnotherFileInItsPlace) {
+  ASSERT_TRUE(WriteAGraphFile(house_, path_));
+  Expected<AGraphFile> file = AGraphFile::Open(path_);
+  ASSERT_TRUE(file);
+  ASSERT_TRUE(WriteAGraphFile(AGraph(), path_));
+  const Expected<AGraph> whole = std::move(*file).Load();
+  ASSERT_TRUE(whole);
+  EXPECT_EQ(WriteAGraph(*whole), bytes_);
+}
+
+// The mesh is the last of the file: what is in front of it is refused at once, it itself when it is asked for.
+TEST_F(OpenedFile, IsRefusedWhereItIsDamaged) {
+  size_t late = 0;
+  for (size_t at = 0; at < bytes_.size(); at += 3) {
+    Expected<AGraphFile> file = AGraphFile::Open(Changed(at));
+    if (!file) continue;
+    EXPECT_GE(at, bytes_.size() - mesh_bytes_ - 16);
+    const Expected<AGraph> whole = std::move(*file).Load();
+    ASSERT_FALSE(whole) << at;
+    EXPECT_EQ(whole.error().code, ErrorCode::kAGraphDamaged);
+    EXPECT_NE(whole.error().message.find("house.agraph"), std::string::npos);
+    ++late;
+  }
+  EXPECT_NEAR(static_cast<double>(late), static_cast<double>(mesh_bytes_) / 3, 2);
 }
 
 TEST(AGraphIo, WritesTheSameBytesTwice) { EXPECT_EQ(WriteAGraph(test::MakeHouse()), WriteAGraph(test::MakeHouse())); }

@@ -7,15 +7,16 @@
 namespace plumb::compiler {
 namespace {
 
-TEST(EmitMesh, SharesVerticesAndKeepsElements) {
+TEST(EmitMesh, SharesVerticesWithinAnElement) {
   test::PlanBuilder b;
   b.Storey("0", 0);
   b.Wall("a", {0, 0}, {1, 0}, 0.2);
-  b.Wall("b", {1, 0}, {2, 0}, 0.2);  // shares four corners
+  b.Wall("b", {1, 0}, {2, 0}, 0.2);
+  AppendSolid(b.plan.elements[1].body, b.plan.elements[0].body);  // shares four corners
   AGraph graph;
   EmitMesh(b.plan, graph);
-  EXPECT_EQ(graph.mesh.vertices.size(), 12u);
-  ASSERT_EQ(graph.mesh.triangles.size(), 24u);
+  EXPECT_EQ(graph.mesh.vertices.size(), 12u + 8u);
+  ASSERT_EQ(graph.mesh.triangles.size(), 36u);
   EXPECT_EQ(graph.mesh.triangles.front().element, 0u);
   EXPECT_EQ(graph.mesh.triangles.back().element, 1u);
 }

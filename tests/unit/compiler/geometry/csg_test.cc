@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -36,6 +37,36 @@ TEST(Subtract, WindowThroughAWall) {
   const Solid result = Difference(wall, window);
   EXPECT_NEAR(Volume(result), 5 * 0.3 * 2.5 - 1.2 * 0.3 * 1.2, 1e-9);
   ExpectClosed(result);
+}
+
+TEST(SubtractAll, AsOneAfterTheOther) {
+  const Solid wall = MakeBox({0, 0, 0}, {40, 0.3, 2.5});
+  std::vector<Solid> tools;
+  for (int i = 0; i < 20; ++i) tools.push_back(MakeBox({1 + 1.9 * i, -0.1, 0.3 * (i % 4)}, {2 + 1.9 * i, i % 3 == 0 ? 0.2 : 0.4, 2.1}));
+  tools.push_back(MakeBox({5, 1, 0}, {6, 2, 1}));  // beside the wall
+  std::vector<const Solid*> all;
+  Solid expected = wall;
+  for (const Solid& tool : tools) {
+    all.push_back(&tool);
+    expected = Difference(expected, tool);
+  }
+  const Expected<DifferenceOfMany> result = SubtractAll(wall, all);
+  ASSERT_TRUE(result);
+  EXPECT_NEAR(Volume(result->rest), Volume(expected), 1e-9);
+  EXPECT_NEAR(SurfaceArea(result->rest), SurfaceArea(expected), 1e-6);
+  ExpectClosed(result->rest);
+  for (size_t t = 0; t < all.size(); ++t) EXPECT_EQ(result->cuts[t], t < 20) << t;
+}
+
+TEST(SubtractAll, SaysThatAToolTookAllOfAPiece) {
+  Solid two = MakeBox({0, 0, 0}, {1, 1, 1});
+  AppendSolid(MakeBox({3, 0, 0}, {4, 1, 1}), two);
+  const Solid around = MakeBox({2.5, -1, -1}, {4.5, 2, 2}), away = MakeBox({1.2, 0, 0}, {2, 1, 1});
+  const std::array<const Solid*, 2> tools = {&away, &around};
+  const Expected<DifferenceOfMany> result = SubtractAll(two, tools);
+  ASSERT_TRUE(result);
+  EXPECT_NEAR(Volume(result->rest), 1, 1e-9);
+  EXPECT_EQ(result->cuts, (std::vector<bool>{false, true}));
 }
 
 TEST(Subtract, OpeningFlushWithBothFacesLeavesNoSkin) {

@@ -30,6 +30,26 @@ TEST(TriangulatePolygon, SmallPolygonsEitherWayRound) {
   EXPECT_DOUBLE_EQ(AreaOf(TriangulatePolygon(std::vector<Ring2>{{{0, 0}, {0, 1}, {1, 0}}})), 0.5);
 }
 
+TEST(TriangulatePolygon, ConvexPolygonsAreCutFromOneCorner) {
+  Ring2 circle;
+  for (int i = 0; i < 12; ++i) circle.emplace_back(std::cos(i * std::numbers::pi / 6), std::sin(i * std::numbers::pi / 6));
+  for (int turn = 0; turn < 2; ++turn) {
+    const Triangulation2 result = TriangulatePolygon(std::vector<Ring2>{circle});
+    EXPECT_EQ(result.triangles.size(), 10u);
+    EXPECT_NEAR(AreaOf(result), 3, 1e-12);
+    std::reverse(circle.begin(), circle.end());
+  }
+}
+
+// It turns left at each corner as a convex polygon does, but goes round twice.
+TEST(TriangulatePolygon, APentagramIsNotConvex) {
+  Ring2 star;
+  for (int i = 0; i < 5; ++i) star.emplace_back(std::cos(i * 0.8 * std::numbers::pi), std::sin(i * 0.8 * std::numbers::pi));
+  const Triangulation2 result = TriangulatePolygon(std::vector<Ring2>{star});
+  EXPECT_EQ(result.points.size(), 10u);                                        // its sides cross in five more
+  EXPECT_LT(AreaOf(result), std::abs(SignedArea(star)) - 0.1);  // which counts the middle twice
+}
+
 TEST(TriangulatePolygon, ConcaveQuadStaysInside) {
   const Ring2 arrow = {{0, 0}, {4, -2}, {1, 0}, {4, 2}};
   EXPECT_NEAR(AreaOf(TriangulatePolygon(std::vector<Ring2>{arrow})), std::abs(SignedArea(arrow)), 1e-12);

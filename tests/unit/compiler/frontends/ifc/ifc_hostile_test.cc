@@ -155,6 +155,32 @@ TEST_F(HostileIfc, WallsOfTooManyOpeningsAreRefused) {
   ExpectRefused(test::IfcText(Wall() + more), DiagnosticKind::kPlanTooComplex);
 }
 
+// As long as they lie apart, their number is no matter: a facade may have hundreds.
+TEST_F(HostileIfc, FiveHundredWindowsInAWallAreCutSoon) {
+  constexpr int kWindows = 500;
+  std::string text = Wall("#20=IFCLOCALPLACEMENT($,#21);", "#32=IFCEXTRUDEDAREASOLID(#33,$,#34,3.);",
+                          "#33=IFCRECTANGLEPROFILEDEF(.AREA.,$,#35,750.,0.3);\n#35=IFCAXIS2PLACEMENT2D(#36,$);\n#36=IFCCARTESIANPOINT((375.,0.));");
+  text +=
+      "#60=IFCPRODUCTDEFINITIONSHAPE($,$,(#61));\n#61=IFCSHAPEREPRESENTATION($,'Body','SweptSolid',(#62));\n"
+      "#62=IFCEXTRUDEDAREASOLID(#63,$,#34,1.2);\n#63=IFCRECTANGLEPROFILEDEF(.AREA.,$,$,1.,0.5);\n";
+  for (int i = 0; i < kWindows; ++i) {
+    text += fmt::format(
+        "#{0}=IFCOPENINGELEMENT('hole{1:018d}',$,'o',$,$,#{2},#60,$,$);\n#{2}=IFCLOCALPLACEMENT($,#{3});\n"
+        "#{3}=IFCAXIS2PLACEMENT3D(#{4},$,$);\n#{4}=IFCCARTESIANPOINT(({6},0.,0.9));\n"
+        "#{5}=IFCRELVOIDSELEMENT('void{1:018d}',$,$,$,#10,#{0});\n",
+        1000 + 10 * i, i, 1001 + 10 * i, 1002 + 10 * i, 1003 + 10 * i, 1004 + 10 * i, 1 + 1.5 * i);
+  }
+  const auto start = std::chrono::steady_clock::now();
+  const auto plan = Read(test::IfcText(text));
+  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(2));
+  ASSERT_TRUE(plan);
+  EXPECT_TRUE(diagnostics_.all().size() < 5u);
+  const Solid& body = plan->elements.at(0).body;
+  EXPECT_TRUE(IsClosed(body));
+  EXPECT_NEAR(Volume(body), (750 * 3 - kWindows * 1.2) * 0.3, 1e-6);
+  EXPECT_LT(body.triangles.size(), 100u * kWindows);
+}
+
 TEST_F(HostileIfc, MissingReferencesAreCounted) {
   std::string references;
   for (int i = 0; i < 100000; ++i) references += fmt::format("{}#{}", i > 0 ? "," : "", 1000 + i);

@@ -8,7 +8,7 @@
 #include <map>
 
 #include "compiler/frontends/mesh/mesh_levels.h"
-#include "compiler/frontends/mesh/mesh_sections.h"
+#include "compiler/frontends/mesh/mesh_bands.h"
 
 namespace plumb::compiler {
 namespace {

@@ -10,8 +10,7 @@
 
 #include "compiler/frontends/mesh/mesh_levels.h"
 #include "compiler/frontends/mesh/mesh_names.h"
-#include "compiler/frontends/mesh/mesh_sections.h"
-#include "compiler/frontends/mesh/mesh_walls.h"
+#include "compiler/frontends/mesh/mesh_parts.h"
 
 namespace plumb::compiler {
 namespace {
@@ -20,19 +19,11 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kNamedShare = 0.4;  // of the upright area in objects that are named walls: then these are the walls
-constexpr double kSkin_m = 0.02;     // triangles this close to a wall's box are its faces
 constexpr double kFloorSlack_m = 0.15, kLevel = 0.9;
 constexpr double kMaxDoorSill_m = 0.15, kMinDoorHeight_m = 1.6, kMinDoorWidth_m = 0.4;
 constexpr double kMaxStep_m = 0.3, kMaxSteppedDoor_m = 1.6;
 constexpr double kMinWindow_m2 = 0.05;
 constexpr double kWeld_m = 1e-4;
-constexpr uint32_t kPool = 0;  // group of the objects that make walls only together
-
-struct StoreyWalls {
-  StoreyRange range;
-  std::vector<WallPiece> pieces;
-  std::vector<std::vector<std::vector<uint32_t>>> triangles;  // by piece and object
-};
 
 // A door's threshold may be a step; a window as low as that is wide.
 bool IsPassage(const WallVoid& v, double floor_z_m) {
@@ -56,7 +47,9 @@ class Planner {
       plan_.storeys.push_back(storey);
       storeys_.push_back({range, WallsOf(range), {}});
     }
-    AssignTriangles();
+    const std::vector<std::vector<bool>> of_walls = AssignTriangles(wall_objects_, directions_, storeys_);
+    for (const MeshObject& o : objects_) in_wall_.emplace_back(o.solid.triangles.size(), false);
+    for (size_t i = 0; i < of_walls.size(); ++i) in_wall_[source_of_[i]] = of_walls[i];
     AddWalls();
     for (uint32_t o = 0; o < objects_.size(); ++o) AddRest(o);
     return std::move(plan_);
@@ -113,80 +106,13 @@ class Planner {
     return bands;
   }
 
-  // Each triangle to the wall whose box holds its middle: one of its own object's walls first.
-  void AssignTriangles() {
-    taken_.resize(objects_.size());
-    for (size_t o = 0; o < objects_.size(); ++o) taken_[o].assign(objects_[o].solid.triangles.size(), 0);
-    for (StoreyWalls& storey : storeys_) {
-      storey.triangles.assign(storey.pieces.size(), std::vector<std::vector<uint32_t>>(wall_objects_.size()));
-      for (uint32_t i = 0; i < wall_objects_.size(); ++i) {
-        const Solid& solid = wall_objects_[i].solid;
-        for (uint32_t t = 0; t < solid.triangles.size(); ++t) {
-          if (taken_[source_of_[i]][t] != 0) continue;
-          if (const size_t p = PieceOf(storey, solid, solid.triangles[t], i + 1); p != storey.pieces.size()) {
-            storey.triangles[p][i].push_back(t);
-            taken_[source_of_[i]][t] = 1;
-          }
-        }
-      }
-    }
-  }
-
-  size_t PieceOf(const StoreyWalls& storey, const Solid& solid, const Eigen::Vector3i& t, uint32_t group) const {
-    const Vector3d middle = (solid.vertices[static_cast<size_t>(t[0])] + solid.vertices[static_cast<size_t>(t[1])] +
-                             solid.vertices[static_cast<size_t>(t[2])]) /
-                            3;
-    size_t best = storey.pieces.size();
-    for (size_t p = 0; p < storey.pieces.size(); ++p) {
-      const WallPiece& piece = storey.pieces[p];
-      if (middle.z() < piece.z0_m - 2 * kFloorSlack_m || middle.z() > piece.z1_m + kSkin_m) continue;
-      if (!piece.Contains(directions_[piece.direction], middle.head<2>(), kSkin_m)) continue;
-      if (piece.group == group) return p;
-      if (best == storey.pieces.size()) best = p;
-    }
-    return best;
-  }
-
-  static double AreaOf(const Solid& solid, const std::vector<uint32_t>& triangles) {
-    double out = 0;
-    for (const uint32_t t : triangles) {
-      const Eigen::Vector3i& i = solid.triangles[t];
-      const Vector3d& a = solid.vertices[static_cast<size_t>(i[0])];
-      out += 0.5 * (solid.vertices[static_cast<size_t>(i[1])] - a).cross(solid.vertices[static_cast<size_t>(i[2])] - a).norm();
-    }
-    return out;
-  }
-
-  static void Append(const Solid& from, const std::vector<uint32_t>& triangles, Solid& into) {
-    Solid part;
-    part.vertices = from.vertices;
-    for (const uint32_t t : triangles) part.triangles.push_back(from.triangles[t]);
-    WeldSolid(kWeld_m, part);
-    AppendSolid(std::move(part), into);
-  }
-
-  // The object that most of a wall's faces come from.
-  uint32_t OwnerOf(const StoreyWalls& storey, size_t piece) const {
-    const uint32_t group = storey.pieces[piece].group;
-    uint32_t best = group == kPool ? 0 : group - 1;
-    if (group != kPool) return best;
-    double most = 0;
-    for (uint32_t i = 0; i < wall_objects_.size(); ++i) {
-      const double area = AreaOf(wall_objects_[i].solid, storey.triangles[piece][i]);
-      if (area <= most) continue;
-      most = area;
-      best = i;
-    }
-    return best;
-  }
-
   void AddWalls() {
     std::map<std::string, size_t> total, count;
     std::vector<std::vector<uint32_t>> owners;
     for (const StoreyWalls& storey : storeys_) {
       owners.emplace_back();
       for (size_t p = 0; p < storey.pieces.size(); ++p) {
-        owners.back().push_back(OwnerOf(storey, p));
+        owners.back().push_back(OwnerOf(wall_objects_, storey, p));
         ++total[wall_objects_[owners.back().back()].name];
       }
     }
@@ -220,9 +146,7 @@ class Planner {
     wall.storey = s;
     wall.thickness_m = piece.thickness_m();
     wall.uncut = BoxOf(piece, piece.span, piece.z0_m, piece.z1_m);
-    for (uint32_t i = 0; i < wall_objects_.size(); ++i) {
-      if (!storey.triangles[p][i].empty()) Append(wall_objects_[i].solid, storey.triangles[p][i], wall.body);
-    }
+    for (const auto& [object, triangles] : storey.triangles[p]) AppendPart(wall_objects_[object].solid, triangles, wall.body);
     Report(piece, wall.location);
     const auto element = static_cast<uint32_t>(plan_.elements.size());
     plan_.elements.push_back(std::move(wall));
@@ -286,7 +210,7 @@ class Planner {
     }
     std::vector<uint32_t> level, rest;
     for (uint32_t t = 0; t < object.solid.triangles.size(); ++t) {
-      if (taken_[o][t] == 0) (IsFloor(object.solid, object.solid.triangles[t]) ? level : rest).push_back(t);
+      if (!in_wall_[o][t]) (IsFloor(object.solid, object.solid.triangles[t]) ? level : rest).push_back(t);
     }
     AddElement(object, ElementKind::kSlab, level);
     AddElement(object, ElementKind::kOther, rest);
@@ -310,7 +234,7 @@ class Planner {
     e.guid = e.name = object.name;
     e.location = object.location;
     e.type = object.location.type;
-    Append(object.solid, triangles, e.body);
+    AppendPart(object.solid, triangles, e.body);
     plan_.elements.push_back(std::move(e));
   }
 
@@ -341,7 +265,7 @@ class Planner {
   std::vector<uint32_t> source_of_;  // in objects_, by wall object
   std::vector<FaceDirection> directions_;
   std::vector<StoreyWalls> storeys_;
-  std::vector<std::vector<char>> taken_;  // by object and triangle
+  std::vector<std::vector<bool>> in_wall_;  // by object and triangle
   PlanIr plan_;
 };
 

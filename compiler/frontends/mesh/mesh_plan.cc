@@ -161,7 +161,8 @@ class Planner {
     opening.wall = wall;
     const double floor_z_m = storeys_[s].range.floor_z_m;
     const bool passage = IsPassage(v, floor_z_m);
-    opening.body = BoxOf(piece, v.span, passage ? std::min(v.z0_m, std::max(floor_z_m, piece.z0_m)) : v.z0_m, v.z1_m);
+    // Down to the floor, also where the wall or a threshold ends above it.
+    opening.body = BoxOf(piece, v.span, passage ? std::min(v.z0_m, floor_z_m) : v.z0_m, v.z1_m);
     opening.width_m = v.span.s1_m - v.span.s0_m;
     opening.height_m = v.z1_m - v.z0_m;
     if (!passage) {

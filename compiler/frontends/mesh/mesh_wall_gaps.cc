@@ -15,9 +15,8 @@ bool IsGapBetween(const WallPiece& p, const WallPiece& q, const MeshOptions& opt
   const double gap_m = q.span.s0_m - p.span.s1_m;
   if (gap_m < kMinWallGap_m || gap_m > options.max_free_gap_m || !walls.IsFree(p, 1) || !walls.IsFree(q, -1)) return false;
   if (gap_m > options.max_door_gap_m && (walls.IsCorner(p, 1) || walls.IsCorner(q, -1))) return false;
-  const double c = 0.5 * (p.c0_m + p.c1_m);
   for (double s = p.span.s1_m + kWallProbe_m; s < q.span.s0_m - kWallProbe_m; s += kStep_m) {
-    if (walls.PieceAt(walls.At(p, s, c), nullptr, 0) != nullptr) return false;
+    if (!walls.IsOpenAcross(p, s)) return false;
   }
   return true;
 }

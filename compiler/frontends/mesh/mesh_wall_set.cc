@@ -35,9 +35,15 @@ bool WallSet::IsWithin(const WallPiece& small, const WallPiece& large) const {
   return true;
 }
 
+bool WallSet::IsOpenAcross(const WallPiece& p, double s_m) const {
+  for (const double u : {0.5, 0.1, 0.3, 0.7, 0.9}) {
+    if (PieceAt(At(p, s_m, p.c0_m + u * p.thickness_m()), &p, 0) != nullptr) return false;
+  }
+  return true;
+}
+
 bool WallSet::IsFree(const WallPiece& p, int step) const {
-  const double s = step > 0 ? p.span.s1_m : p.span.s0_m;
-  return PieceAt(At(p, s + step * kWallLine_m, 0.5 * (p.c0_m + p.c1_m)), &p, 0) == nullptr;
+  return IsOpenAcross(p, step > 0 ? p.span.s1_m + kWallLine_m : p.span.s0_m - kWallLine_m);
 }
 
 bool WallSet::IsCorner(const WallPiece& p, int step) const {

@@ -29,6 +29,8 @@ class WallSet {
   [[nodiscard]] static bool IsInLine(const WallPiece& p, const WallPiece& q);
   [[nodiscard]] bool IsWithin(const WallPiece& small, const WallPiece& large) const;
 
+  // No other piece lies at s within p's thickness, a layer of it neither.
+  [[nodiscard]] bool IsOpenAcross(const WallPiece& p, double s_m) const;
   // `step`: +1 for the end, -1 for the start. Nothing goes on there.
   [[nodiscard]] bool IsFree(const WallPiece& p, int step) const;
   // Another wall meets it at its very end from the side.

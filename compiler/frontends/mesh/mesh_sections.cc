@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-constexpr double kUpright = 0.1;   // of the normal's z: six degrees off the vertical
+constexpr double kUpright = 0.1;    // of the normal's z: six degrees off the vertical
 constexpr double kBin_rad = 0.001;  // of the histogram of directions
 
 double AngleOf(const Vector2d& v) {

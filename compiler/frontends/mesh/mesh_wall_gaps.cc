@@ -54,8 +54,7 @@ bool IsCrossed(const WallPiece& p, const WallPiece& q, double gap_m, const WallS
 void CloseGapsInLine(const MeshOptions& options, WallSet& walls) {
   std::vector<size_t> order(walls.pieces.size());
   std::iota(order.begin(), order.end(), size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](size_t a, size_t b) { return walls.pieces[a].span.s0_m < walls.pieces[b].span.s0_m; });
+  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return walls.pieces[a].span.s0_m < walls.pieces[b].span.s0_m; });
   std::vector<bool> absorbed(walls.pieces.size(), false);
   for (size_t i = 0; i < order.size(); ++i) {
     if (absorbed[order[i]]) continue;

@@ -193,9 +193,8 @@ class WallFinder {
   bool IsSolidAt(const WallPiece& q, const Vector2d& at, double z_m) const {
     if (!walls_.Holds(q, at, 0)) return false;
     const double s_m = walls_.directions()[q.direction].S(at);
-    return std::none_of(q.voids.begin(), q.voids.end(), [&](const WallVoid& v) {
-      return s_m >= v.span.s0_m && s_m <= v.span.s1_m && z_m >= v.z0_m && z_m <= v.z1_m;
-    });
+    return std::none_of(q.voids.begin(), q.voids.end(),
+                        [&](const WallVoid& v) { return s_m >= v.span.s0_m && s_m <= v.span.s1_m && z_m >= v.z0_m && z_m <= v.z1_m; });
   }
 
   void MarkColumns() {

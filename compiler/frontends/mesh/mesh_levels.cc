@@ -119,11 +119,11 @@ bool IsSlab(const std::vector<MeshObject>& walls, double z_m) {
   return LengthAt(walls, z_m - kWithinSlab_m) <= kSlabShare * std::min(below_m, LengthAt(walls, z_m + kAboveFloor_m));
 }
 
-// Walls that stand on others, with openings of their own: not the panels of one high wall, nor steps of a fine mesh.
+// Walls that stand on others, with doors from there on: not the panels of one high wall, nor steps of a fine mesh or lintels.
 bool IsSeam(const std::vector<MeshObject>& walls, const Edges& edges, int64_t bin, double z_m) {
   const double above_m = LengthAt(walls, z_m + kAboveFloor_m), below_m = LengthAt(walls, z_m - kBelowFloor_m);
   return Edges::Sum(edges.tops_m, bin) >= kSeamShare * below_m && Edges::Sum(edges.bottoms_m, bin) >= kSeamShare * above_m &&
-         std::abs(above_m - below_m) >= kSeamChange * below_m;
+         above_m <= (1 - kSeamChange) * below_m;
 }
 
 // Floors of open shells, between two floors that are known: where the walls begin anew.

@@ -35,7 +35,9 @@ bool IsPassage(const WallVoid& v, double floor_z_m) {
 class Planner {
  public:
   Planner(const MeshScene& scene, const MeshOptions& options, DiagnosticSink& sink)
-      : objects_(scene.objects), options_(options), sink_(sink) {}
+      : objects_(scene.objects), options_(options), sink_(sink) {
+    plan_.origin = scene.origin;
+  }
 
   PlanIr Run() {
     ChooseWallObjects();
@@ -183,7 +185,7 @@ class Planner {
 
   void Report(const WallPiece& piece, const SourceLocation& location) {
     const FaceDirection& d = directions_[piece.direction];
-    const Vector2d at = d.At(0.5 * (piece.span.s0_m + piece.span.s1_m), 0.5 * (piece.c0_m + piece.c1_m));
+    const Vector2d at = d.At(0.5 * (piece.span.s0_m + piece.span.s1_m), 0.5 * (piece.c0_m + piece.c1_m)) + plan_.origin.head<2>();
     if (piece.sheet) {
       sink_.Emit(DiagnosticKind::kMeshWallOfOneFace, location,
                  fmt::format("the wall around ({:.2f}, {:.2f}) has one face only; it is taken to be {:.2f} m thick", at.x(), at.y(),

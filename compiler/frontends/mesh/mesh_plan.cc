@@ -8,9 +8,11 @@
 #include <map>
 #include <set>
 
+#include "compiler/frontends/mesh/mesh_curves.h"
 #include "compiler/frontends/mesh/mesh_levels.h"
 #include "compiler/frontends/mesh/mesh_names.h"
 #include "compiler/frontends/mesh/mesh_parts.h"
+#include "compiler/geometry/sweep.h"
 
 namespace plumb::compiler {
 namespace {
@@ -108,22 +110,32 @@ class Planner {
     return bands;
   }
 
+  // Facets of a curve that are of one object are one wall.
   void AddWalls() {
     std::map<std::string, size_t> total, count;
     std::vector<std::vector<uint32_t>> owners;
+    std::vector<WallCurves> curves;
     for (const StoreyWalls& storey : storeys_) {
       owners.emplace_back();
+      curves.push_back(FindCurves(directions_, storey.pieces));
       for (size_t p = 0; p < storey.pieces.size(); ++p) {
         owners.back().push_back(OwnerOf(wall_objects_, storey, p));
-        ++total[wall_objects_[owners.back().back()].name];
+        size_t& first = curves.back().first[p];
+        if (owners.back()[first] != owners.back()[p]) first = p;
+        if (first == p) ++total[wall_objects_[owners.back().back()].name];
       }
     }
     for (uint32_t s = 0; s < storeys_.size(); ++s) {
+      std::map<size_t, uint32_t> wall_of;  // by the first piece
       for (size_t p = 0; p < storeys_[s].pieces.size(); ++p) {
-        const MeshObject& owner = wall_objects_[owners[s][p]];
-        const std::string base = owner.name.empty() ? "mesh" : owner.name;
-        const std::string guid = total[owner.name] > 1 ? fmt::format("{}#{}", base, ++count[owner.name]) : base;
-        AddWall(s, p, owner, guid);
+        const size_t first = curves[s].first[p];
+        const auto [wall, fresh] = wall_of.try_emplace(first, static_cast<uint32_t>(plan_.elements.size()));
+        if (fresh) {
+          const MeshObject& owner = wall_objects_[owners[s][p]];
+          const std::string base = owner.name.empty() ? "mesh" : owner.name;
+          AddWall(s, storeys_[s].pieces[p], owner, total[owner.name] > 1 ? fmt::format("{}#{}", base, ++count[owner.name]) : base);
+        }
+        AddPiece(s, p, curves[s].corners[p], wall->second);
       }
     }
   }
@@ -136,9 +148,7 @@ class Planner {
     return MakeBox({span.s0_m, piece.c0_m, z0_m}, {span.s1_m, piece.c1_m, z1_m}, T_plan_wall);
   }
 
-  void AddWall(uint32_t s, size_t p, const MeshObject& owner, const std::string& guid) {
-    const StoreyWalls& storey = storeys_[s];
-    const WallPiece& piece = storey.pieces[p];
+  void AddWall(uint32_t s, const WallPiece& piece, const MeshObject& owner, const std::string& guid) {
     PlanElement wall;
     wall.kind = piece.column ? ElementKind::kColumn : ElementKind::kWall;
     wall.guid = wall.name = guid;
@@ -147,13 +157,21 @@ class Planner {
     wall.type = owner.location.type;
     wall.storey = s;
     wall.thickness_m = piece.thickness_m();
-    wall.uncut = BoxOf(piece, piece.span, piece.z0_m, piece.z1_m);
+    plan_.elements.push_back(std::move(wall));
+  }
+
+  void AddPiece(uint32_t s, size_t p, const std::array<Vector2d, 4>& corners, uint32_t element) {
+    const StoreyWalls& storey = storeys_[s];
+    const WallPiece& piece = storey.pieces[p];
+    PlanElement& wall = plan_.elements[element];
+    Solid part = Extrude({Ring(corners.begin(), corners.end())}, {0, 0, piece.z1_m - piece.z0_m});
+    for (Vector3d& v : part.vertices) v.z() += piece.z0_m;
+    AppendSolid(std::move(part), wall.uncut);
     for (const auto& [object, triangles] : storey.triangles[p]) AppendPart(wall_objects_[object].solid, triangles, wall.body);
     Report(piece, wall.location);
-    const auto element = static_cast<uint32_t>(plan_.elements.size());
-    plan_.elements.push_back(std::move(wall));
     if (piece.column) return;
-    for (size_t v = 0; v < piece.voids.size(); ++v) AddOpening(s, piece, piece.voids[v], element, fmt::format("{}/{}", guid, v + 1));
+    const std::string guid = wall.guid;  // openings are elements, too
+    for (const WallVoid& v : piece.voids) AddOpening(s, piece, v, element, fmt::format("{}/{}", guid, ++num_openings_[element]));
   }
 
   void AddOpening(uint32_t s, const WallPiece& piece, const WallVoid& v, uint32_t wall, const std::string& guid) {
@@ -268,7 +286,8 @@ class Planner {
   std::vector<uint32_t> source_of_;  // in objects_, by wall object
   std::vector<FaceDirection> directions_;
   std::vector<StoreyWalls> storeys_;
-  std::vector<std::vector<bool>> in_wall_;  // by object and triangle
+  std::vector<std::vector<bool>> in_wall_;   // by object and triangle
+  std::map<uint32_t, size_t> num_openings_;  // of walls, by element
   PlanIr plan_;
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -24,6 +25,36 @@ struct Gap {
   DrawnOpening opening;
   uint32_t side_a = 0, side_b = 0;
   bool between_ends = false;
+};
+
+// Openings by the squares of the plan that their boxes meet: the ones close to another are found without a look at all.
+class OpeningPlaces {
+ public:
+  void Add(const DrawnOpening& o, uint32_t number) {
+    ForEachCell(o, [&](const Cell& cell) { numbers_[cell].push_back(number); });
+  }
+  // Some more than once.
+  template <class Visit>
+  void ForEachNear(const DrawnOpening& o, const Visit& visit) const {
+    ForEachCell(o, [&](const Cell& cell) {
+      if (const auto found = numbers_.find(cell); found != numbers_.end()) std::for_each(found->second.begin(), found->second.end(), visit);
+    });
+  }
+
+ private:
+  using Cell = std::pair<int64_t, int64_t>;
+  static constexpr double kCell_m = 4;
+
+  template <class Visit>
+  static void ForEachCell(const DrawnOpening& o, const Visit& visit) {
+    const Eigen::Vector2d low = o.from.cwiseMin(o.to).array() - 0.5 * o.depth_m, high = o.from.cwiseMax(o.to).array() + 0.5 * o.depth_m;
+    const auto cell = [](double at_m) { return static_cast<int64_t>(std::floor(at_m / kCell_m)); };
+    for (int64_t x = cell(low.x()); x <= cell(high.x()); ++x) {
+      for (int64_t y = cell(low.y()); y <= cell(high.y()); ++y) visit(Cell(x, y));
+    }
+  }
+
+  std::map<Cell, std::vector<uint32_t>> numbers_;
 };
 
 class OpeningFinder {
@@ -77,7 +108,7 @@ class OpeningFinder {
     std::stable_sort(gaps.begin(), gaps.end(), [](const Gap& a, const Gap& b) { return a.opening.width_m() < b.opening.width_m(); });
     const auto take = [&](Gap& gap) {
       jambs_.insert({gap.side_a, gap.side_b});
-      out_.push_back(gap.opening);
+      Keep(gap.opening);
     };
     for (Gap& gap : gaps) {
       if (!IsKnown(gap.opening) && Judge(gap)) take(gap);
@@ -89,15 +120,24 @@ class OpeningFinder {
 
   // The same place found from its other end, or a gap that another one crosses.
   bool IsKnown(const DrawnOpening& o) const {
-    return std::any_of(out_.begin(), out_.end(), [&](const DrawnOpening& k) {
-      const Eigen::Vector2d offset = o.middle() - k.middle();
-      if (std::abs(o.along().dot(k.along())) > kAgainst)
-        return std::abs(offset.dot(k.along())) < 0.5 * std::max(o.width_m(), k.width_m()) &&
-               std::abs(Cross(k.along(), offset)) < 0.5 * (k.depth_m + o.depth_m);
-      const double side_a = Cross(k.along(), o.from - k.from), side_b = Cross(k.along(), o.to - k.from);
-      const double side_c = Cross(o.along(), k.from - o.from), side_d = Cross(o.along(), k.to - o.from);
-      return side_a * side_b < 0 && side_c * side_d < 0;
-    });
+    bool known = false;
+    places_.ForEachNear(o, [&](uint32_t k) { known = known || Collide(o, out_[k]); });
+    return known;
+  }
+
+  static bool Collide(const DrawnOpening& o, const DrawnOpening& k) {
+    const Eigen::Vector2d offset = o.middle() - k.middle();
+    if (std::abs(o.along().dot(k.along())) > kAgainst)
+      return std::abs(offset.dot(k.along())) < 0.5 * std::max(o.width_m(), k.width_m()) &&
+             std::abs(Cross(k.along(), offset)) < 0.5 * (k.depth_m + o.depth_m);
+    const double side_a = Cross(k.along(), o.from - k.from), side_b = Cross(k.along(), o.to - k.from);
+    const double side_c = Cross(o.along(), k.from - o.from), side_d = Cross(o.along(), k.to - o.from);
+    return side_a * side_b < 0 && side_c * side_d < 0;
+  }
+
+  void Keep(DrawnOpening opening) {
+    places_.Add(opening, static_cast<uint32_t>(out_.size()));
+    out_.push_back(std::move(opening));
   }
 
   // Whether symbols make the gap a door or a window, and which.
@@ -162,7 +202,7 @@ class OpeningFinder {
       o->location = path.location;
       if (IsKnown(*o)) continue;
       symbols_.Use(p);
-      out_.push_back(std::move(*o));
+      Keep(std::move(*o));
       return;
     }
     if (path.role == LineRole::kWindow || path.role == LineRole::kDoor) AddOverWall(p);
@@ -221,7 +261,7 @@ class OpeningFinder {
     o->use = path.role == LineRole::kDoor ? DrawnUse::kDoor : DrawnUse::kWindow;
     o->path = p;
     o->location = path.location;
-    if (!IsKnown(*o)) out_.push_back(std::move(*o));
+    if (!IsKnown(*o)) Keep(std::move(*o));
   }
 
   static constexpr double kMaxEnd_m = 1.0;
@@ -233,6 +273,7 @@ class OpeningFinder {
   OpeningSymbols symbols_;
   std::set<uint32_t> jambs_;  // sides at the ends of openings
   std::vector<DrawnOpening> out_;
+  OpeningPlaces places_;  // of out_
 };
 
 }  // namespace

@@ -171,7 +171,9 @@ std::vector<StoreyRange> FindStoreys(const std::vector<MeshObject>& walls, const
   size_t base = 0, top = n - 1;
   while (base < n && profile.upright[base] < kStanding * most) ++base;
   while (top > base && profile.upright[top] < kStanding * most) --top;
-  const double plan_m2 = profile.box.sizes().x() * profile.box.sizes().y(), top_m = profile.Z(top) + 0.5 * kBin_m;
+  const double plan_m2 = profile.box.sizes().x() * profile.box.sizes().y();
+  const double top_bin_m = profile.Z(top) + 0.5 * kBin_m, highest_m = profile.box.max().z();
+  const double top_m = std::abs(highest_m - top_bin_m) < 2 * kBin_m ? highest_m : top_bin_m;
   // The upper face of each floor that walls stand on.
   std::vector<double> floors;
   for (size_t i = 0; i + 1 < n; ++i) {

@@ -130,11 +130,26 @@ class WallFinder {
     WallPiece piece = run.grid->Piece(run.columns);
     if (piece.length_m() < kMinLoose_m) return std::nullopt;
     const WallSet::Touches touches = walls_.TouchesOf(piece, walls_.pieces);
-    if (touches.any == 3 && piece.length_m() <= (touches.in_line != 0 ? kMaxOpening_m : kMaxSpannedDoor_m)) return piece;
+    if (touches.any == 3 && piece.length_m() <= (touches.in_line != 0 ? kMaxOpening_m : kMaxSpannedDoor_m)) {
+      OpenUnderAndOver(piece);
+      return piece;
+    }
     const bool low = run.grid->HasSill(run.columns, options_.min_parapet_height_m) && piece.thickness_m() <= kMaxParapetThickness_m &&
                      piece.length_m() >= kMinSheet_m;
     if (touches.any == 0 || !low) return std::nullopt;
     return run.grid->Parapet(run.columns, range_.floor_z_m + std::max(kWallHeight_m, options_.section_height_m + kMinWallGap_m));
+  }
+
+  // A lintel or a sill between walls makes a wall with them that is open from the floor to it, or from it to their top.
+  void OpenUnderAndOver(WallPiece& piece) const {
+    if (piece.length_m() < kMinSheet_m) return;
+    if (piece.z0_m > range_.floor_z_m + kMinLoose_m) {
+      piece.voids.push_back({piece.span, range_.floor_z_m, piece.z0_m});
+      piece.z0_m = range_.floor_z_m;
+    } else if (piece.z1_m < range_.floor_z_m + kWallHeight_m) {
+      piece.voids.push_back({piece.span, piece.z1_m, range_.top_z_m});
+      piece.z1_m = range_.top_z_m;
+    }
   }
 
   // Walls that are windows from end to end, with a sill and a lintel, if they reach other walls or each other.

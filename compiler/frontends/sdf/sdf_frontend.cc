@@ -175,7 +175,7 @@ class WorldReader {
     std::string folders = "the world's folder";
     for (const std::string& folder : options_.model_path) folders += fmt::format(", `{}`", folder);
     Emit(DiagnosticKind::kIncludeMissing, uri,
-         fmt::format("`{}` is in none of {}, nor in `models` there; it is left out", uri.GetText(), folders),
+         fmt::format("`{}` is not found in {} (nor in `models` there); it is left out", uri.GetText(), folders),
          "name the folder that holds it: plumb compile --model-path FOLDER");
     return std::nullopt;
   }

@@ -26,7 +26,7 @@ struct StoreyDrawing {
 struct CompileOptions {
   double section_height_m = 1.1;          // walls are cut here above the storey's zero to get their footprints
   double snap_radius_m = 0.002;           // vertices of the planar map closer than this become one
-  double min_room_area_m2 = 0.5;          // smaller faces between walls are shafts or gaps, not rooms
+  double min_room_area_m2 = 0.5;          // smaller faces between walls are shafts or gaps, no rooms, but for closets with a door
   double max_gap_m = 0.2;                 // walls closer than this are taken to meet where that keeps two rooms apart
   bool divide_open_plans = true;          // along the source's spaces where no walls do; false: one room
   std::string unit;                       // of drawings and meshes: m, cm, mm, in or ft; empty: as stated by the file or seen in its walls

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "compiler/geometry/box_tree.h"
+#include "compiler/passes/divide_rooms.h"
 #include "compiler/passes/face_locator.h"
 #include "compiler/passes/polygon.h"
 #include "compiler/passes/vertical_probe.h"
@@ -15,7 +17,8 @@ namespace {
 
 constexpr double kProbeClearance_m = 0.05;  // probes keep off walls: skirtings, wall edges of slabs
 constexpr double kFloorSearch_m = 1.0;      // a floor further below its level than this belongs to another one (a void)
-constexpr double kDoorReach_m = 0.6;      // from the middle of a door to the room behind its wall
+constexpr double kCornerReach_m = 0.02;     // from the corner of an opening to the border of the room it leads to
+constexpr double kDoorReach_m = 0.6;        // from the middle of a door to the room behind its wall
 constexpr double kHeadroom_m = 0.3;         // ceilings are looked for from here above the floor
 
 double Median(std::vector<double> values) {
@@ -77,6 +80,13 @@ class RoomFinder {
     for (const PlanWall& wall : floors.walls) {
       if (wall.storey < has_walls_.size()) has_walls_[wall.storey] = true;
     }
+    for (const PlanElement& e : plan.elements) {
+      if (e.kind == ElementKind::kDoor && !e.body.empty()) door_boxes_.push_back(Bounds(e.body));
+    }
+    doors_ = BoxTree<3>(door_boxes_);
+    std::vector<Eigen::AlignedBox3d> openings;
+    for (const PlanOpening& o : plan.openings) openings.push_back(Bounds(o.body));
+    openings_ = BoxTree<3>(std::move(openings));
   }
 
   RoomsByFace Run() {
@@ -111,7 +121,7 @@ class RoomFinder {
 
   std::optional<Candidate> Consider(const Floor& floor, uint32_t f) const {
     const FloorFace& face = floor.faces[f];
-    if (!face.cover.empty() || face.area_m2 < options_.min_area_m2) return std::nullopt;
+    if (!face.cover.empty() || face.area_m2 < std::min(options_.min_closet_area_m2, options_.min_area_m2)) return std::nullopt;
     Candidate out;
     out.face = f;
     for (const Ring& ring : FaceRings(floor, face)) {
@@ -121,7 +131,7 @@ class RoomFinder {
       else if (out.rings.empty())
         return std::nullopt;
     }
-    if (2 * face.area_m2 / Perimeter(out.rings) < options_.min_width_m) return std::nullopt;
+    if (2 * face.area_m2 / Perimeter(out.rings) < options_.min_width_m || IsShaft(floor, face.area_m2, out.rings)) return std::nullopt;
     out.yaw_rad = YawOf(out.rings[0]);
     out.probes = ProbePoints(out.rings, out.yaw_rad);
     for (const auto& p : out.probes) {
@@ -132,18 +142,55 @@ class RoomFinder {
     return out;
   }
 
+  // Small, and nothing says that anybody enters it.
+  bool IsShaft(const Floor& floor, double area_m2, const std::vector<Ring>& rings) const {
+    if (area_m2 > options_.max_shaft_area_m2 || HasDoor(floor.level, rings)) return false;
+    bool opens = false;
+    openings_.ForEachIn(Around(rings, kCornerReach_m, floor.level), [&](uint32_t o) { opens |= LeadsTo(plan_.openings[o].body, rings); });
+    if (area_m2 < options_.min_area_m2 || opens) return !opens;
+    const Eigen::Vector2d middle = Centroid(rings);
+    return std::none_of(plan_.spaces.begin(), plan_.spaces.end(), [&](const PlanSpace& space) {
+      return Bounds(space.body).exteriorDistance(Eigen::Vector3d(middle.x(), middle.y(), floor.level.section_z_m)) == 0 &&
+             WindingNumber(SpaceOutline(space, floor), middle) != 0;
+    });
+  }
+
+  // At the height of the section.
+  static Eigen::AlignedBox3d Around(const std::vector<Ring>& rings, double reach_m, const Level& level) {
+    Eigen::AlignedBox3d out;
+    for (const auto& p : rings[0]) out.extend(Eigen::Vector3d(p.x(), p.y(), level.section_z_m));
+    out.min().head<2>().array() -= reach_m;
+    out.max().head<2>().array() += reach_m;
+    return out;
+  }
+
+  // An opening leads to where it has a side on the border or within: two of its corners.
+  static bool LeadsTo(const Solid& body, const std::vector<Ring>& rings) {
+    std::vector<Eigen::Vector2d> corners;
+    for (const Eigen::Vector3d& v : body.vertices) {
+      const Eigen::Vector2d p = v.head<2>();
+      const bool known = std::any_of(corners.begin(), corners.end(), [&](const auto& c) { return (c - p).norm() < kCornerReach_m; });
+      if (!known && (WindingNumber(rings, p) != 0 || DistanceToRings(p, rings) <= kCornerReach_m)) corners.push_back(p);
+    }
+    return corners.size() >= 2;
+  }
+
   static bool IsOfLevel(const Level& level, double floor_z_m) { return floor_z_m >= level.base_z_m - kFloorSearch_m; }
 
   // Nothing to stand on but the floor of a room further down, and no door leads here: the upper part of that room.
   bool IsVoid(const Level& level, const Candidate& c) const {
-    if (c.floor_share >= options_.min_floor_share || c.deep_share < 0.5) return false;
-    return std::none_of(plan_.elements.begin(), plan_.elements.end(), [&](const PlanElement& e) {
-      if (e.kind != ElementKind::kDoor) return false;
-      const Eigen::AlignedBox3d box = Bounds(e.body);
-      if (box.isEmpty() || !IsOfLevel(level, box.min().z()) || box.min().z() >= level.section_z_m) return false;
+    return c.floor_share < options_.min_floor_share && c.deep_share >= 0.5 && !HasDoor(level, c.rings);
+  }
+
+  bool HasDoor(const Level& level, const std::vector<Ring>& rings) const {
+    bool found = false;
+    doors_.ForEachIn(Around(rings, kDoorReach_m, level), [&](uint32_t d) {
+      const Eigen::AlignedBox3d& box = door_boxes_[d];
+      if (found || !IsOfLevel(level, box.min().z())) return;
       const Eigen::Vector2d at = box.center().head<2>();
-      return WindingNumber(c.rings, at) != 0 || DistanceToRings(at, c.rings) <= kDoorReach_m;
+      found = WindingNumber(rings, at) != 0 || DistanceToRings(at, rings) <= kDoorReach_m;
     });
+    return found;
   }
 
   void ReportVoid(const Level& level, const Candidate& c) {
@@ -209,12 +256,16 @@ class RoomFinder {
   DiagnosticSink& sink_;
   VerticalProbe below_, standing_, above_;
   std::vector<bool> has_walls_;  // by storey
+  std::vector<Eigen::AlignedBox3d> door_boxes_;
+  BoxTree<3> doors_, openings_;
 };
 
 }  // namespace
 
 std::string RoomOptions::Check() const {
   if (!(min_area_m2 >= 0)) return fmt::format("RoomOptions.min_area_m2 = {}; must not be negative", min_area_m2);
+  if (!(min_closet_area_m2 >= 0)) return fmt::format("RoomOptions.min_closet_area_m2 = {}; must not be negative", min_closet_area_m2);
+  if (!(max_shaft_area_m2 >= 0)) return fmt::format("RoomOptions.max_shaft_area_m2 = {}; must not be negative", max_shaft_area_m2);
   if (!(min_width_m >= 0)) return fmt::format("RoomOptions.min_width_m = {}; must not be negative", min_width_m);
   if (!(min_clear_height_m >= 0)) return fmt::format("RoomOptions.min_clear_height_m = {}; must not be negative", min_clear_height_m);
   if (!(min_floor_share >= 0 && min_floor_share <= 0.5))

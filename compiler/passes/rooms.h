@@ -9,7 +9,9 @@
 namespace plumb::compiler {
 
 struct RoomOptions {
-  double min_area_m2 = 0.5;         // smaller faces are shafts or gaps
+  double min_area_m2 = 0.5;         // smaller faces are shafts or gaps ...
+  double min_closet_area_m2 = 0.25;  // ... but closets, if a door leads there
+  double max_shaft_area_m2 = 1.5;   // faces up to this without a door, a window or a space of the source are shafts, too
   double min_width_m = 0.2;         // 2 * area / perimeter; narrower faces are cavities between double walls
   double min_clear_height_m = 1.5;  // lower ones are crawl spaces and foundations
   double min_floor_share = 0.1;     // of its area with a floor or stairs of its level; with less, and without a door, it is a void

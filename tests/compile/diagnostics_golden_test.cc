@@ -103,7 +103,7 @@ void WriteHuge(const std::string& name) {
 
 // The input is in the working folder afterwards. Its name; empty: there is none.
 std::string Provide(const std::string& code) {
-  for (const char* ending : {".ifc", ".ifc.gz", ".dxf", ".agraph", ".obj", ".dae", ".sdf"}) {
+  for (const char* ending : {".ifc", ".ifc.gz", ".dxf", ".agraph", ".obj", ".ply", ".dae", ".sdf"}) {
     const fs::path stored = kGoldens / (code + ending);
     if (!fs::exists(stored)) continue;
     fs::copy_file(stored, code + ending);

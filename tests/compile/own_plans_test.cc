@@ -54,8 +54,10 @@ TEST(SiteOffice, AsAMeshIsThePlanOfTheIfc) { ExpectSame(Of("site_office/plan.ifc
 
 TEST(OfficeFloor, AsADxfDrawingIsThePlanOfTheIfc) { ExpectSame(Of("office_floor/plan.ifc"), Of("office_floor/plan.dxf"), {}); }
 
+TEST(OfficeFloor, AsAMeshIsThePlanOfTheIfc) { ExpectSame(Of("office_floor/plan.ifc"), Of("office_floor/plan.ply"), MeshOptions()); }
+
 TEST(OfficeFloor, CurvedWallsAreArcsInEveryFormat) {
-  for (const char* file : {"plan.ifc", "plan.dxf"}) {
+  for (const char* file : {"plan.ifc", "plan.dxf", "plan.ply"}) {
     const AGraph graph = Of(std::string("office_floor/") + file);
     std::vector<double> radii_m;
     for (const Surface& s : graph.surfaces) {

@@ -3,13 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <numbers>
 #include <set>
 
+#include "compiler/frontends/drawing/opening_symbols.h"
 #include "compiler/frontends/drawing/plane.h"
 
 namespace plumb::compiler {
@@ -19,15 +18,7 @@ constexpr double kOff_m = 1e-4;
 constexpr double kAgainst = 0.96;   // cosine between sides that face each other
 constexpr double kSkewEnds = 0.87;  // ... between ends of walls: the two lines of a wall often end askew
 constexpr double kMinEnd_m = 0.03;  // narrower ends are no walls
-constexpr double kBesides_m = 0.01;  // between panels that slide past each other
 constexpr double kSillShare = 0.85;  // a window's line runs from jamb to jamb
-
-using Interval = std::pair<double, double>;
-
-struct Stroke {
-  Eigen::Vector2d a, b;
-  uint32_t path;
-};
 
 // A gap between two sides of walls, as a rectangle: `from` to `to` and half the depth to both sides.
 struct Gap {
@@ -36,37 +27,45 @@ struct Gap {
   bool between_ends = false;
 };
 
-// What symbols say of a place.
-struct Evidence {
-  uint32_t door = kNone, swing = kNone, window = kNone, mixed = kNone;  // a path
-  double door_span = 0, window_span = 0, mixed_span = 0;  // share of the width that lines along it take
-  double mixed_line = 0;  // ... that one line takes
-  uint32_t leaf = kNone;  // a straight line as long as the gap is wide, or half of it: a leaf that stands open
-  bool sliding = false;   // panels beside each other, each about half as wide as the gap
+// Openings by the squares of the plan that their boxes meet: the ones close to another are found without a look at all.
+class OpeningPlaces {
+ public:
+  void Add(const DrawnOpening& o, uint32_t number) {
+    ForEachCell(o, [&](const Cell& cell) { numbers_[cell].push_back(number); });
+  }
+  // Some more than once.
+  template <class Visit>
+  void ForEachNear(const DrawnOpening& o, const Visit& visit) const {
+    ForEachCell(o, [&](const Cell& cell) {
+      if (const auto found = numbers_.find(cell); found != numbers_.end()) std::for_each(found->second.begin(), found->second.end(), visit);
+    });
+  }
+
+ private:
+  using Cell = std::pair<int64_t, int64_t>;
+  static constexpr double kCell_m = 4;
+
+  template <class Visit>
+  static void ForEachCell(const DrawnOpening& o, const Visit& visit) {
+    const Eigen::Vector2d low = o.from.cwiseMin(o.to).array() - 0.5 * o.depth_m, high = o.from.cwiseMax(o.to).array() + 0.5 * o.depth_m;
+    const auto cell = [](double at_m) { return static_cast<int64_t>(std::floor(at_m / kCell_m)); };
+    for (int64_t x = cell(low.x()); x <= cell(high.x()); ++x) {
+      for (int64_t y = cell(low.y()); y <= cell(high.y()); ++y) visit(Cell(x, y));
+    }
+  }
+
+  std::map<Cell, std::vector<uint32_t>> numbers_;
 };
 
 class OpeningFinder {
  public:
-  OpeningFinder(const Drawing& drawing, const std::vector<uint32_t>& symbols, const Outline& outline, const OpeningOptions& options)
-      : drawing_(drawing), symbols_(symbols), outline_(outline), options_(options), used_(drawing.paths.size(), false) {
-    std::vector<Eigen::AlignedBox2d> boxes;
-    for (const uint32_t p : symbols) {
-      const DrawnPath& path = drawing.paths[p];
-      if (path.symbol != kNone) paths_of_symbol_[path.symbol].push_back(p);
-      const size_t sides = path.points.size() < 2 ? 0 : path.points.size() - (path.closed ? 0 : 1);
-      for (size_t i = 0; i < sides; ++i) {
-        strokes_.push_back({path.points[i], path.points[(i + 1) % path.points.size()], p});
-        Eigen::AlignedBox2d box(strokes_.back().a);
-        boxes.push_back(box.extend(strokes_.back().b));
-      }
-    }
-    tree_ = BoxTree<2>(std::move(boxes));
-  }
+  OpeningFinder(const Drawing& drawing, const std::vector<uint32_t>& paths, const Outline& outline, const OpeningOptions& options)
+      : drawing_(drawing), paths_(paths), outline_(outline), options_(options), symbols_(drawing, paths, options) {}
 
   std::vector<DrawnOpening> Run() {
     AddGaps();
-    for (const uint32_t p : symbols_) {
-      if (!IsUsed(p)) AddFromSymbol(p);
+    for (const uint32_t p : paths_) {
+      if (!symbols_.IsUsed(p)) AddFromSymbol(p);
     }
     return std::move(out_);
   }
@@ -109,7 +108,7 @@ class OpeningFinder {
     std::stable_sort(gaps.begin(), gaps.end(), [](const Gap& a, const Gap& b) { return a.opening.width_m() < b.opening.width_m(); });
     const auto take = [&](Gap& gap) {
       jambs_.insert({gap.side_a, gap.side_b});
-      out_.push_back(gap.opening);
+      Keep(gap.opening);
     };
     for (Gap& gap : gaps) {
       if (!IsKnown(gap.opening) && Judge(gap)) take(gap);
@@ -121,95 +120,36 @@ class OpeningFinder {
 
   // The same place found from its other end, or a gap that another one crosses.
   bool IsKnown(const DrawnOpening& o) const {
-    return std::any_of(out_.begin(), out_.end(), [&](const DrawnOpening& k) {
-      const Eigen::Vector2d offset = o.middle() - k.middle();
-      if (std::abs(o.along().dot(k.along())) > kAgainst)
-        return std::abs(offset.dot(k.along())) < 0.5 * std::max(o.width_m(), k.width_m()) &&
-               std::abs(Cross(k.along(), offset)) < 0.5 * (k.depth_m + o.depth_m);
-      const double side_a = Cross(k.along(), o.from - k.from), side_b = Cross(k.along(), o.to - k.from);
-      const double side_c = Cross(o.along(), k.from - o.from), side_d = Cross(o.along(), k.to - o.from);
-      return side_a * side_b < 0 && side_c * side_d < 0;
-    });
+    bool known = false;
+    places_.ForEachNear(o, [&](uint32_t k) { known = known || Collide(o, out_[k]); });
+    return known;
   }
 
-  Evidence Look(const DrawnOpening& o) {
-    Evidence out;
-    const Eigen::Vector2d u = o.along(), m = o.middle();
-    const double half_u = 0.5 * o.width_m() + options_.symbol_slack_m, half_v = 0.5 * o.depth_m + options_.symbol_slack_m;
-    const double reach = std::hypot(half_u, half_v);
-    near_.clear();
-    tree_.ForEachIn({m - Eigen::Vector2d::Constant(reach), m + Eigen::Vector2d::Constant(reach)}, [&](uint32_t i) { near_.push_back(i); });
-    std::sort(near_.begin(), near_.end());
-    std::vector<Interval> door, window, mixed;
-    std::vector<double> panels;  // where they stand across the gap
-    for (const uint32_t i : near_) {
-      const Stroke& stroke = strokes_[i];
-      const Eigen::Vector2d a(u.dot(stroke.a - m), Cross(u, stroke.a - m)), b(u.dot(stroke.b - m), Cross(u, stroke.b - m));
-      if (!MeetsBox(a, b, half_u, half_v)) continue;
-      const DrawnPath& path = drawing_.paths[stroke.path];
-      const double half = 0.5 * o.width_m();
-      const bool along = std::abs(a.y() - b.y()) < 0.1 * std::abs(a.x() - b.x());
-      Interval part{std::max(-half, std::min(a.x(), b.x())), std::min(half, std::max(a.x(), b.x()))};
-      if (!along || part.second < part.first) part = {0, 0};
-      const double span = (part.second - part.first) / o.width_m();
-      const bool swing = std::any_of(path.arcs.begin(), path.arcs.end(), [&](const Arc& arc) { return IsSwing(arc, options_) && IsLeafOf(arc.radius_m / o.width_m()); });
-      const double share = (b - a).norm() / o.width_m();
-      const double from_jamb = std::min(std::abs(std::abs(a.x()) - half), std::abs(std::abs(b.x()) - half));
-      if (path.role != LineRole::kWindow && !path.curved && !along && IsLeafOf(share) && from_jamb < options_.symbol_slack_m)
-        out.leaf = std::min(out.leaf, stroke.path);
-      if (span > 0.4 && span < 0.7) panels.push_back(0.5 * (a.y() + b.y()));
-      if (swing && path.role != LineRole::kWindow) out.swing = std::min(out.swing, stroke.path);
-      if (path.role == LineRole::kDoor) out.door = std::min(out.door, stroke.path), door.push_back(part);
-      if (path.role == LineRole::kWindow) out.window = std::min(out.window, stroke.path), window.push_back(part);
-      if (path.role == LineRole::kOpening || path.role == LineRole::kAny)
-        out.mixed = std::min(out.mixed, stroke.path), mixed.push_back(part), out.mixed_line = std::max(out.mixed_line, span);
-    }
-    out.door_span = LengthOfUnion(std::move(door)) / o.width_m();
-    out.window_span = LengthOfUnion(std::move(window)) / o.width_m();
-    out.mixed_span = LengthOfUnion(std::move(mixed)) / o.width_m();
-    const auto [low, high] = std::minmax_element(panels.begin(), panels.end());
-    out.sliding = !panels.empty() && *high - *low > kBesides_m;
-    return out;
+  static bool Collide(const DrawnOpening& o, const DrawnOpening& k) {
+    const Eigen::Vector2d offset = o.middle() - k.middle();
+    if (std::abs(o.along().dot(k.along())) > kAgainst)
+      return std::abs(offset.dot(k.along())) < 0.5 * std::max(o.width_m(), k.width_m()) &&
+             std::abs(Cross(k.along(), offset)) < 0.5 * (k.depth_m + o.depth_m);
+    const double side_a = Cross(k.along(), o.from - k.from), side_b = Cross(k.along(), o.to - k.from);
+    const double side_c = Cross(o.along(), k.from - o.from), side_d = Cross(o.along(), k.to - o.from);
+    return side_a * side_b < 0 && side_c * side_d < 0;
   }
 
-  // The leaf of a door is about as long as the door is wide, or half as long where there are two.
-  static bool IsLeafOf(double share) { return (share > 0.8 && share < 1.2) || (share > 0.42 && share < 0.58); }
-
-  static double LengthOfUnion(std::vector<Interval> parts) {
-    std::sort(parts.begin(), parts.end());
-    double sum = 0, end = -std::numeric_limits<double>::infinity();
-    for (const auto& [from, to] : parts) {
-      if (to > end) sum += to - std::max(from, end), end = to;
-    }
-    return sum;
-  }
-
-  static bool MeetsBox(Eigen::Vector2d a, Eigen::Vector2d b, double half_u, double half_v) {
-    double t0 = 0, t1 = 1;
-    const Eigen::Vector2d d = b - a, half(half_u, half_v);
-    for (int k = 0; k < 2; ++k) {
-      if (std::abs(d[k]) < 1e-12) {
-        if (std::abs(a[k]) > half[k]) return false;
-        continue;
-      }
-      double lo = (-half[k] - a[k]) / d[k], hi = (half[k] - a[k]) / d[k];
-      if (lo > hi) std::swap(lo, hi);
-      t0 = std::max(t0, lo);
-      t1 = std::min(t1, hi);
-    }
-    return t0 <= t1;
+  void Keep(DrawnOpening opening) {
+    places_.Add(opening, static_cast<uint32_t>(out_.size()));
+    out_.push_back(std::move(opening));
   }
 
   // Whether symbols make the gap a door or a window, and which.
   bool Judge(Gap& gap) {
     DrawnOpening& o = gap.opening;
     const double width = o.width_m();
-    const Evidence e = Look(o);
+    const SymbolEvidence e = symbols_.Look(o);
     const auto take = [&](DrawnUse use, uint32_t path) {
       o.use = use;
       o.path = path;
       o.location = drawing_.paths[path].location;
-      MarkUsed(o);
+      symbols_.UseAllIn(o);
       return true;
     };
     if (e.swing != kNone && width <= options_.max_swing_gap_m) return take(DrawnUse::kDoor, e.swing);
@@ -234,24 +174,6 @@ class OpeningFinder {
     const uint32_t source = outline_.sides()[gap.side_a].source;
     if (source < drawing_.paths.size()) o.location = drawing_.paths[source].location;
     return true;
-  }
-
-  // All strokes at the place, and the other paths of their symbols.
-  void MarkUsed(const DrawnOpening& o) {
-    const double reach = 0.5 * o.width_m() + options_.symbol_slack_m;
-    for (const uint32_t i : near_) {
-      if (DistanceToLine(o.middle(), strokes_[i].a, strokes_[i].b) > reach) continue;
-      used_[strokes_[i].path] = true;
-      const uint32_t symbol = drawing_.paths[strokes_[i].path].symbol;
-      if (symbol != kNone) used_symbols_.push_back(symbol);
-    }
-    std::sort(used_symbols_.begin(), used_symbols_.end());
-    used_symbols_.erase(std::unique(used_symbols_.begin(), used_symbols_.end()), used_symbols_.end());
-  }
-
-  bool IsUsed(uint32_t path) const {
-    const uint32_t symbol = drawing_.paths[path].symbol;
-    return used_[path] || (symbol != kNone && std::binary_search(used_symbols_.begin(), used_symbols_.end(), symbol));
   }
 
   // Where a closed leaf may stand: along both ends of a swing, or along a line.
@@ -279,12 +201,8 @@ class OpeningFinder {
       o->path = p;
       o->location = path.location;
       if (IsKnown(*o)) continue;
-      near_.clear();
-      used_[p] = true;
-      if (path.symbol != kNone) {
-        used_symbols_.insert(std::lower_bound(used_symbols_.begin(), used_symbols_.end(), path.symbol), path.symbol);
-      }
-      out_.push_back(std::move(*o));
+      symbols_.Use(p);
+      Keep(std::move(*o));
       return;
     }
     if (path.role == LineRole::kWindow || path.role == LineRole::kDoor) AddOverWall(p);
@@ -320,7 +238,7 @@ class OpeningFinder {
   // A window or a door without a swing whose box lies over a wall; its paths are looked at together.
   void AddOverWall(uint32_t p) {
     const DrawnPath& path = drawing_.paths[p];
-    const std::vector<uint32_t> members = path.symbol == kNone ? std::vector<uint32_t>{p} : paths_of_symbol_.at(path.symbol);
+    const std::vector<uint32_t>& members = symbols_.PathsWith(p);
     Eigen::AlignedBox2d box;
     Eigen::Vector2d u = Eigen::Vector2d::Zero();
     for (const uint32_t q : members) {
@@ -343,22 +261,19 @@ class OpeningFinder {
     o->use = path.role == LineRole::kDoor ? DrawnUse::kDoor : DrawnUse::kWindow;
     o->path = p;
     o->location = path.location;
-    if (!IsKnown(*o)) out_.push_back(std::move(*o));
+    if (!IsKnown(*o)) Keep(std::move(*o));
   }
 
   static constexpr double kMaxEnd_m = 1.0;
 
   const Drawing& drawing_;
-  const std::vector<uint32_t>& symbols_;
+  const std::vector<uint32_t>& paths_;  // of doors and windows
   const Outline& outline_;
   const OpeningOptions& options_;
-  std::vector<Stroke> strokes_;
-  BoxTree<2> tree_;
-  std::map<uint32_t, std::vector<uint32_t>> paths_of_symbol_;
-  std::vector<bool> used_;
-  std::vector<uint32_t> used_symbols_, near_;
+  OpeningSymbols symbols_;
   std::set<uint32_t> jambs_;  // sides at the ends of openings
   std::vector<DrawnOpening> out_;
+  OpeningPlaces places_;  // of out_
 };
 
 }  // namespace

@@ -8,7 +8,7 @@
 #include <map>
 
 #include "compiler/frontends/mesh/mesh_levels.h"
-#include "compiler/frontends/mesh/mesh_sections.h"
+#include "compiler/frontends/mesh/mesh_bands.h"
 
 namespace plumb::compiler {
 namespace {
@@ -44,6 +44,17 @@ Matrix3d TurnFor(UpAxis up) {
 void Apply(const Matrix3d& m, MeshScene& scene) {
   for (MeshObject& o : scene.objects) {
     for (Vector3d& v : o.solid.vertices) v = m * v;
+  }
+  scene.origin = m * scene.origin;
+}
+
+// Numbers in the file and here differ by whole metres.
+void RoundOrigin(MeshScene& scene) {
+  const Vector3d whole = scene.origin.array().round(), rest = scene.origin - whole;
+  scene.origin = whole;
+  if (rest.isZero(0)) return;
+  for (MeshObject& o : scene.objects) {
+    for (Vector3d& v : o.solid.vertices) v += rest;
   }
 }
 
@@ -188,6 +199,7 @@ std::optional<double> UnitFromName(std::string_view name) {
 void MoveToPlanFrame(const MeshOptions& options, MeshScene& scene, DiagnosticSink& sink) {
   ChooseUp(options, scene, sink);
   ChooseUnit(options, scene, sink);
+  RoundOrigin(scene);
 }
 
 }  // namespace plumb::compiler

@@ -7,6 +7,7 @@
 
 #include "compiler/frontends/mesh/mesh_frame.h"
 #include "compiler/frontends/mesh/mesh_loader.h"
+#include "compiler/frontends/mesh/mesh_origin.h"
 #include "compiler/frontends/mesh/mesh_plan.h"
 
 namespace plumb::compiler {
@@ -30,6 +31,26 @@ bool IsFinite(const MeshScene& scene, DiagnosticSink& diagnostics) {
   return true;
 }
 
+// The longest diagonal of an object.
+double ExtentOf(const MeshScene& scene) {
+  double out = 0;
+  for (const MeshObject& o : scene.objects) out = std::max(out, Bounds(o.solid).diagonal().norm());
+  return out;
+}
+
+void ReportOrigin(const MeshScene& scene, double blur_m, const MeshOptions& options, DiagnosticSink& diagnostics) {
+  const Eigen::Vector3d& o = scene.origin;
+  if (!o.isZero()) {
+    diagnostics.Emit(
+        DiagnosticKind::kFarOrigin, {},
+        fmt::format("the plan lies {:.0f} km from its zero; it is compiled about ({:.0f}, {:.0f})", o.norm() / 1000, o.x(), o.y()));
+  }
+  if (blur_m <= options.line_tolerance_m) return;
+  diagnostics.Emit(DiagnosticKind::kMeshBlurred, {},
+                   fmt::format("its corners lie so far from zero that the numbers they are stored in are {:.3f} m apart", blur_m),
+                   "move the model near its zero before it is exported");
+}
+
 }  // namespace
 
 std::optional<PlanIr> ReadMesh(const Source& source, DiagnosticSink& diagnostics, const MeshOptions& options) {
@@ -50,7 +71,10 @@ std::optional<PlanIr> ReadMesh(const Source& source, DiagnosticSink& diagnostics
     diagnostics.Emit(DiagnosticKind::kMeshWithoutTriangles, {}, "the mesh has no face with an area");
     return std::nullopt;
   }
+  const double blur = BlurOf(*scene), extent = ExtentOf(*scene);  // in the file's unit; the frame shows which it is
+  MoveSceneNearZero(*scene);
   MoveToPlanFrame(options, *scene, diagnostics);
+  ReportOrigin(*scene, blur * ExtentOf(*scene) / extent, options, diagnostics);
   PlanIr plan = MakePlan(*scene, options, diagnostics);
   plan.source_path = source.path;
   plan.source_format = SchemaName(source.format);

@@ -1,6 +1,7 @@
 #include "compiler/frontends/mesh/mesh_levels.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 
@@ -16,6 +17,10 @@ constexpr double kSlab_m = 0.6;       // the faces of one floor lie within it
 constexpr double kMinStorey_m = 1.9;
 constexpr double kEyes_m = 1.1;    // where walls are looked for above a floor
 constexpr double kStanding = 0.3;  // of the length of walls where it is greatest, to count as a storey
+// Where walls end and others begin.
+constexpr double kWithinSlab_m = 0.05, kAboveFloor_m = 0.3, kBelowFloor_m = 0.15;
+constexpr double kSlabShare = 0.6;  // of the length of walls above and below that goes on through a slab
+constexpr double kSeamShare = 0.5, kSeamChange = 0.02;
 constexpr double kWeld_m = 0.005;
 constexpr size_t kMaxBreaks = 40;
 constexpr double kMinSlice_m = 0.02;
@@ -75,6 +80,86 @@ Profile ProfileOf(const std::vector<MeshObject>& walls, const std::vector<MeshOb
   return out;
 }
 
+// Length of the walls' faces in the section at z.
+double LengthAt(const std::vector<MeshObject>& walls, double z_m) {
+  double out = 0;
+  for (const FaceSegment& f : CutScene(walls, z_m)) out += (f.b - f.a).norm();
+  return out;
+}
+
+// Level edges of upright faces by height: those that faces stand on, and those that faces end with.
+struct Edges {
+  std::map<int64_t, double> bottoms_m, tops_m;  // by number of kBin_m
+  static double Sum(const std::map<int64_t, double>& lengths, int64_t bin) {
+    double out = 0;
+    for (auto it = lengths.lower_bound(bin - 1); it != lengths.end() && it->first <= bin + 1; ++it) out += it->second;
+    return out;
+  }
+};
+
+Edges EdgesOf(const std::vector<MeshObject>& walls) {
+  Edges out;
+  ForEach(walls, [&](const Corners& f) {
+    if (std::abs(f.n.z()) > kUpright * f.n.norm()) return;
+    const std::array<const Vector3d*, 3> corners = {&f.a, &f.b, &f.c};
+    for (size_t k = 0; k < 3; ++k) {
+      const Vector3d &p = *corners[k], &q = *corners[(k + 1) % 3], &other = *corners[(k + 2) % 3];
+      if (std::abs(p.z() - q.z()) > kWeld_m) continue;
+      const double z_m = 0.5 * (p.z() + q.z());
+      (other.z() > z_m ? out.bottoms_m : out.tops_m)[std::llround(z_m / kBin_m)] += (p - q).norm();
+    }
+  });
+  return out;
+}
+
+// Walls that end below z and begin anew at it, on a slab that is not drawn.
+bool IsSlab(const std::vector<MeshObject>& walls, double z_m) {
+  double below_m = 0;
+  for (const double down_m : {0.5, 0.9, 1.2}) below_m = std::max(below_m, LengthAt(walls, z_m - down_m));
+  return LengthAt(walls, z_m - kWithinSlab_m) <= kSlabShare * std::min(below_m, LengthAt(walls, z_m + kAboveFloor_m));
+}
+
+// Walls that stand on others, with doors from there on: not the panels of one high wall, nor steps of a fine mesh or lintels.
+bool IsSeam(const std::vector<MeshObject>& walls, const Edges& edges, int64_t bin, double z_m) {
+  const double above_m = LengthAt(walls, z_m + kAboveFloor_m), below_m = LengthAt(walls, z_m - kBelowFloor_m);
+  return Edges::Sum(edges.tops_m, bin) >= kSeamShare * below_m && Edges::Sum(edges.bottoms_m, bin) >= kSeamShare * above_m &&
+         above_m <= (1 - kSeamChange) * below_m;
+}
+
+// Floors of open shells, between two floors that are known: where the walls begin anew.
+std::vector<double> FloorsFromWalls(const std::vector<MeshObject>& walls, const Edges& edges, double base_m, double top_m) {
+  std::vector<double> out;
+  if (top_m - base_m < 2 * kMinStorey_m) return out;
+  const double standing_m = kStanding * LengthAt(walls, base_m + kEyes_m);
+  std::vector<double> seams;
+  for (const auto& [bin, length_m] : edges.bottoms_m) {
+    const double z_m = static_cast<double>(bin) * kBin_m;
+    if (length_m < standing_m || z_m < base_m + kMinStorey_m || z_m > top_m - kMinStorey_m) continue;
+    if (!out.empty() && z_m < out.back() + kMinStorey_m) continue;
+    if (IsSlab(walls, z_m))
+      out.push_back(z_m);
+    else if (IsSeam(walls, edges, bin, z_m))
+      seams.push_back(z_m);
+  }
+  const bool fine_mesh = static_cast<double>(seams.size()) > (top_m - base_m) / kMinStorey_m;
+  if (out.empty() && !fine_mesh) {
+    for (const double z_m : seams) {
+      if (out.empty() || z_m >= out.back() + kMinStorey_m) out.push_back(z_m);
+    }
+  }
+  return out;
+}
+
+void AddFloorsFromWalls(const std::vector<MeshObject>& walls, double top_m, std::vector<double>& floors) {
+  const Edges edges = EdgesOf(walls);
+  std::vector<double> all;
+  for (size_t i = 0; i < floors.size(); ++i) {
+    all.push_back(floors[i]);
+    for (const double z_m : FloorsFromWalls(walls, edges, floors[i], i + 1 < floors.size() ? floors[i + 1] : top_m)) all.push_back(z_m);
+  }
+  floors = std::move(all);
+}
+
 }  // namespace
 
 std::vector<StoreyRange> FindStoreys(const std::vector<MeshObject>& walls, const std::vector<MeshObject>& objects) {
@@ -86,7 +171,9 @@ std::vector<StoreyRange> FindStoreys(const std::vector<MeshObject>& walls, const
   size_t base = 0, top = n - 1;
   while (base < n && profile.upright[base] < kStanding * most) ++base;
   while (top > base && profile.upright[top] < kStanding * most) --top;
-  const double plan_m2 = profile.box.sizes().x() * profile.box.sizes().y(), top_m = profile.Z(top) + 0.5 * kBin_m;
+  const double plan_m2 = profile.box.sizes().x() * profile.box.sizes().y();
+  const double top_bin_m = profile.Z(top) + 0.5 * kBin_m, highest_m = profile.box.max().z();
+  const double top_m = std::abs(highest_m - top_bin_m) < 2 * kBin_m ? highest_m : top_bin_m;
   // The upper face of each floor that walls stand on.
   std::vector<double> floors;
   for (size_t i = 0; i + 1 < n; ++i) {
@@ -101,6 +188,7 @@ std::vector<StoreyRange> FindStoreys(const std::vector<MeshObject>& walls, const
   }
   const double base_m = profile.Z(base) - 0.5 * kBin_m;
   if (floors.empty() || floors.front() > base_m + kMinStorey_m) floors.insert(floors.begin(), base_m);
+  AddFloorsFromWalls(walls, top_m, floors);
   // To the face itself instead of the bin's middle.
   std::map<size_t, std::pair<double, double>> exact;
   ForEach(objects, [&](const Corners& f) {

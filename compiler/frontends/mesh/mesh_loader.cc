@@ -14,6 +14,7 @@
 #include <filesystem>
 #include <new>
 
+#include "compiler/frontends/mesh/mesh_origin.h"
 #include "compiler/frontends/mesh/mesh_reader.h"
 
 namespace plumb::compiler {
@@ -43,8 +44,20 @@ void WriteAll(int fd, std::string_view bytes) {
   }
 }
 
+const char* HintOf(SourceFormat format) {
+  switch (format) {
+    case SourceFormat::kObj: return "obj";
+    case SourceFormat::kPly: return "ply";
+    case SourceFormat::kStl: return "stl";
+    case SourceFormat::kCollada: return "dae";
+    case SourceFormat::kGltf: return "glb";
+    case SourceFormat::kGltfJson: return "gltf";
+    default: return "";
+  }
+}
+
 // Never returns: whatever assimp leaves behind ends with the process.
-[[noreturn]] void RunChild(int fd, const Source& source, const std::string& hint, const MeshOptions& options) {
+[[noreturn]] void RunChild(int fd, std::string_view bytes, const Source& source, const MeshOptions& options) {
   for (const int signal : {SIGSEGV, SIGABRT, SIGBUS, SIGFPE, SIGTERM, SIGINT}) std::signal(signal, SIG_DFL);
   Limit(RLIMIT_CORE, 0);
   Limit(RLIMIT_CPU, static_cast<rlim_t>(options.reader_time_s) + 1);
@@ -56,7 +69,7 @@ void WriteAll(int fd, std::string_view bytes) {
   std::string answer;
   try {
     const std::string folder = std::filesystem::path(source.path).parent_path().string();
-    const auto objects = ReadWithAssimp(source.bytes, hint, folder, options.max_triangles);
+    const auto objects = ReadWithAssimp(bytes, HintOf(source.format), folder, options.max_triangles);
     if (objects) {
       answer = static_cast<char>(Verdict::kRead) + EncodeObjects(*objects);
     } else {
@@ -91,19 +104,7 @@ bool ReadAll(int fd, const MeshOptions& options, std::string& out) {
   }
 }
 
-const char* HintOf(SourceFormat format) {
-  switch (format) {
-    case SourceFormat::kObj: return "obj";
-    case SourceFormat::kPly: return "ply";
-    case SourceFormat::kStl: return "stl";
-    case SourceFormat::kCollada: return "dae";
-    case SourceFormat::kGltf: return "glb";
-    case SourceFormat::kGltfJson: return "gltf";
-    default: return "";
-  }
-}
-
-Expected<std::string> RunReader(const Source& source, const MeshOptions& options) {
+Expected<std::string> RunReader(std::string_view bytes, const Source& source, const MeshOptions& options) {
   int ends[2];
   if (pipe2(ends, O_CLOEXEC) != 0) return Fail(ErrorCode::kInternal, "no pipe to the mesh reader");
   const pid_t child = fork();
@@ -114,7 +115,7 @@ Expected<std::string> RunReader(const Source& source, const MeshOptions& options
   }
   if (child == 0) {
     close(ends[0]);
-    RunChild(ends[1], source, HintOf(source.format), options);
+    RunChild(ends[1], bytes, source, options);
   }
   close(ends[1]);
   std::string answer;
@@ -135,7 +136,9 @@ Expected<std::string> RunReader(const Source& source, const MeshOptions& options
 }  // namespace
 
 Expected<MeshScene> LoadMesh(const Source& source, const MeshOptions& options) {
-  Expected<std::string> answer = RunReader(source, options);
+  MeshScene scene;
+  const std::optional<std::string> near_zero = source.format == SourceFormat::kObj ? ObjNearZero(source.bytes, scene.origin) : std::nullopt;
+  Expected<std::string> answer = RunReader(near_zero ? std::string_view(*near_zero) : source.bytes, source, options);
   if (!answer) return tl::unexpected(answer.error());
   const std::string_view content = std::string_view(*answer).substr(1);
   switch (static_cast<Verdict>((*answer)[0])) {
@@ -145,7 +148,6 @@ Expected<MeshScene> LoadMesh(const Source& source, const MeshOptions& options) {
   }
   Expected<std::vector<MeshObject>> objects = DecodeObjects(content);
   if (!objects) return tl::unexpected(objects.error());
-  MeshScene scene;
   scene.objects = std::move(*objects);
   for (MeshObject& o : scene.objects) {
     o.location.guid = o.name;

@@ -8,10 +8,11 @@
 #include <map>
 #include <set>
 
+#include "compiler/frontends/mesh/mesh_curves.h"
 #include "compiler/frontends/mesh/mesh_levels.h"
 #include "compiler/frontends/mesh/mesh_names.h"
-#include "compiler/frontends/mesh/mesh_sections.h"
-#include "compiler/frontends/mesh/mesh_walls.h"
+#include "compiler/frontends/mesh/mesh_parts.h"
+#include "compiler/geometry/sweep.h"
 
 namespace plumb::compiler {
 namespace {
@@ -20,19 +21,11 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr double kNamedShare = 0.4;  // of the upright area in objects that are named walls: then these are the walls
-constexpr double kSkin_m = 0.02;     // triangles this close to a wall's box are its faces
 constexpr double kFloorSlack_m = 0.15, kLevel = 0.9;
 constexpr double kMaxDoorSill_m = 0.15, kMinDoorHeight_m = 1.6, kMinDoorWidth_m = 0.4;
 constexpr double kMaxStep_m = 0.3, kMaxSteppedDoor_m = 1.6;
 constexpr double kMinWindow_m2 = 0.05;
 constexpr double kWeld_m = 1e-4;
-constexpr uint32_t kPool = 0;  // group of the objects that make walls only together
-
-struct StoreyWalls {
-  StoreyRange range;
-  std::vector<WallPiece> pieces;
-  std::vector<std::vector<std::vector<uint32_t>>> triangles;  // by piece and object
-};
 
 // A door's threshold may be a step; a window as low as that is wide.
 bool IsPassage(const WallVoid& v, double floor_z_m) {
@@ -44,7 +37,9 @@ bool IsPassage(const WallVoid& v, double floor_z_m) {
 class Planner {
  public:
   Planner(const MeshScene& scene, const MeshOptions& options, DiagnosticSink& sink)
-      : objects_(scene.objects), options_(options), sink_(sink) {}
+      : objects_(scene.objects), options_(options), sink_(sink) {
+    plan_.origin = scene.origin;
+  }
 
   PlanIr Run() {
     ChooseWallObjects();
@@ -56,7 +51,9 @@ class Planner {
       plan_.storeys.push_back(storey);
       storeys_.push_back({range, WallsOf(range), {}});
     }
-    AssignTriangles();
+    const std::vector<std::vector<bool>> of_walls = AssignTriangles(wall_objects_, directions_, storeys_);
+    for (const MeshObject& o : objects_) in_wall_.emplace_back(o.solid.triangles.size(), false);
+    for (size_t i = 0; i < of_walls.size(); ++i) in_wall_[source_of_[i]] = of_walls[i];
     AddWalls();
     for (uint32_t o = 0; o < objects_.size(); ++o) AddRest(o);
     return std::move(plan_);
@@ -113,89 +110,32 @@ class Planner {
     return bands;
   }
 
-  // Each triangle to the wall whose box holds its middle: one of its own object's walls first.
-  void AssignTriangles() {
-    taken_.resize(objects_.size());
-    for (size_t o = 0; o < objects_.size(); ++o) taken_[o].assign(objects_[o].solid.triangles.size(), 0);
-    for (StoreyWalls& storey : storeys_) {
-      storey.triangles.assign(storey.pieces.size(), std::vector<std::vector<uint32_t>>(wall_objects_.size()));
-      for (uint32_t i = 0; i < wall_objects_.size(); ++i) {
-        const Solid& solid = wall_objects_[i].solid;
-        for (uint32_t t = 0; t < solid.triangles.size(); ++t) {
-          if (taken_[source_of_[i]][t] != 0) continue;
-          if (const size_t p = PieceOf(storey, solid, solid.triangles[t], i + 1); p != storey.pieces.size()) {
-            storey.triangles[p][i].push_back(t);
-            taken_[source_of_[i]][t] = 1;
-          }
-        }
-      }
-    }
-  }
-
-  size_t PieceOf(const StoreyWalls& storey, const Solid& solid, const Eigen::Vector3i& t, uint32_t group) const {
-    const Vector3d middle = (solid.vertices[static_cast<size_t>(t[0])] + solid.vertices[static_cast<size_t>(t[1])] +
-                             solid.vertices[static_cast<size_t>(t[2])]) /
-                            3;
-    size_t best = storey.pieces.size();
-    for (size_t p = 0; p < storey.pieces.size(); ++p) {
-      const WallPiece& piece = storey.pieces[p];
-      if (middle.z() < piece.z0_m - 2 * kFloorSlack_m || middle.z() > piece.z1_m + kSkin_m) continue;
-      if (!piece.Contains(directions_[piece.direction], middle.head<2>(), kSkin_m)) continue;
-      if (piece.group == group) return p;
-      if (best == storey.pieces.size()) best = p;
-    }
-    return best;
-  }
-
-  static double AreaOf(const Solid& solid, const std::vector<uint32_t>& triangles) {
-    double out = 0;
-    for (const uint32_t t : triangles) {
-      const Eigen::Vector3i& i = solid.triangles[t];
-      const Vector3d& a = solid.vertices[static_cast<size_t>(i[0])];
-      out += 0.5 * (solid.vertices[static_cast<size_t>(i[1])] - a).cross(solid.vertices[static_cast<size_t>(i[2])] - a).norm();
-    }
-    return out;
-  }
-
-  static void Append(const Solid& from, const std::vector<uint32_t>& triangles, Solid& into) {
-    Solid part;
-    part.vertices = from.vertices;
-    for (const uint32_t t : triangles) part.triangles.push_back(from.triangles[t]);
-    WeldSolid(kWeld_m, part);
-    AppendSolid(std::move(part), into);
-  }
-
-  // The object that most of a wall's faces come from.
-  uint32_t OwnerOf(const StoreyWalls& storey, size_t piece) const {
-    const uint32_t group = storey.pieces[piece].group;
-    uint32_t best = group == kPool ? 0 : group - 1;
-    if (group != kPool) return best;
-    double most = 0;
-    for (uint32_t i = 0; i < wall_objects_.size(); ++i) {
-      const double area = AreaOf(wall_objects_[i].solid, storey.triangles[piece][i]);
-      if (area <= most) continue;
-      most = area;
-      best = i;
-    }
-    return best;
-  }
-
+  // Facets of a curve that are of one object are one wall.
   void AddWalls() {
     std::map<std::string, size_t> total, count;
     std::vector<std::vector<uint32_t>> owners;
+    std::vector<WallCurves> curves;
     for (const StoreyWalls& storey : storeys_) {
       owners.emplace_back();
+      curves.push_back(FindCurves(directions_, storey.pieces));
       for (size_t p = 0; p < storey.pieces.size(); ++p) {
-        owners.back().push_back(OwnerOf(storey, p));
-        ++total[wall_objects_[owners.back().back()].name];
+        owners.back().push_back(OwnerOf(wall_objects_, storey, p));
+        size_t& first = curves.back().first[p];
+        if (owners.back()[first] != owners.back()[p]) first = p;
+        if (first == p) ++total[wall_objects_[owners.back().back()].name];
       }
     }
     for (uint32_t s = 0; s < storeys_.size(); ++s) {
+      std::map<size_t, uint32_t> wall_of;  // by the first piece
       for (size_t p = 0; p < storeys_[s].pieces.size(); ++p) {
-        const MeshObject& owner = wall_objects_[owners[s][p]];
-        const std::string base = owner.name.empty() ? "mesh" : owner.name;
-        const std::string guid = total[owner.name] > 1 ? fmt::format("{}#{}", base, ++count[owner.name]) : base;
-        AddWall(s, p, owner, guid);
+        const size_t first = curves[s].first[p];
+        const auto [wall, fresh] = wall_of.try_emplace(first, static_cast<uint32_t>(plan_.elements.size()));
+        if (fresh) {
+          const MeshObject& owner = wall_objects_[owners[s][p]];
+          const std::string base = owner.name.empty() ? "mesh" : owner.name;
+          AddWall(s, storeys_[s].pieces[p], owner, total[owner.name] > 1 ? fmt::format("{}#{}", base, ++count[owner.name]) : base);
+        }
+        AddPiece(s, p, curves[s].corners[p], wall->second);
       }
     }
   }
@@ -208,9 +148,7 @@ class Planner {
     return MakeBox({span.s0_m, piece.c0_m, z0_m}, {span.s1_m, piece.c1_m, z1_m}, T_plan_wall);
   }
 
-  void AddWall(uint32_t s, size_t p, const MeshObject& owner, const std::string& guid) {
-    const StoreyWalls& storey = storeys_[s];
-    const WallPiece& piece = storey.pieces[p];
+  void AddWall(uint32_t s, const WallPiece& piece, const MeshObject& owner, const std::string& guid) {
     PlanElement wall;
     wall.kind = piece.column ? ElementKind::kColumn : ElementKind::kWall;
     wall.guid = wall.name = guid;
@@ -219,15 +157,21 @@ class Planner {
     wall.type = owner.location.type;
     wall.storey = s;
     wall.thickness_m = piece.thickness_m();
-    wall.uncut = BoxOf(piece, piece.span, piece.z0_m, piece.z1_m);
-    for (uint32_t i = 0; i < wall_objects_.size(); ++i) {
-      if (!storey.triangles[p][i].empty()) Append(wall_objects_[i].solid, storey.triangles[p][i], wall.body);
-    }
-    Report(piece, wall.location);
-    const auto element = static_cast<uint32_t>(plan_.elements.size());
     plan_.elements.push_back(std::move(wall));
+  }
+
+  void AddPiece(uint32_t s, size_t p, const std::array<Vector2d, 4>& corners, uint32_t element) {
+    const StoreyWalls& storey = storeys_[s];
+    const WallPiece& piece = storey.pieces[p];
+    PlanElement& wall = plan_.elements[element];
+    Solid part = Extrude({Ring(corners.begin(), corners.end())}, {0, 0, piece.z1_m - piece.z0_m});
+    for (Vector3d& v : part.vertices) v.z() += piece.z0_m;
+    AppendSolid(std::move(part), wall.uncut);
+    for (const auto& [object, triangles] : storey.triangles[p]) AppendPart(wall_objects_[object].solid, triangles, wall.body);
+    Report(piece, wall.location);
     if (piece.column) return;
-    for (size_t v = 0; v < piece.voids.size(); ++v) AddOpening(s, piece, piece.voids[v], element, fmt::format("{}/{}", guid, v + 1));
+    const std::string guid = wall.guid;  // openings are elements, too
+    for (const WallVoid& v : piece.voids) AddOpening(s, piece, v, element, fmt::format("{}/{}", guid, ++num_openings_[element]));
   }
 
   void AddOpening(uint32_t s, const WallPiece& piece, const WallVoid& v, uint32_t wall, const std::string& guid) {
@@ -237,7 +181,8 @@ class Planner {
     opening.wall = wall;
     const double floor_z_m = storeys_[s].range.floor_z_m;
     const bool passage = IsPassage(v, floor_z_m);
-    opening.body = BoxOf(piece, v.span, passage ? std::min(v.z0_m, std::max(floor_z_m, piece.z0_m)) : v.z0_m, v.z1_m);
+    // Down to the floor, also where the wall or a threshold ends above it.
+    opening.body = BoxOf(piece, v.span, passage ? std::min(v.z0_m, floor_z_m) : v.z0_m, v.z1_m);
     opening.width_m = v.span.s1_m - v.span.s0_m;
     opening.height_m = v.z1_m - v.z0_m;
     if (!passage) {
@@ -258,7 +203,7 @@ class Planner {
 
   void Report(const WallPiece& piece, const SourceLocation& location) {
     const FaceDirection& d = directions_[piece.direction];
-    const Vector2d at = d.At(0.5 * (piece.span.s0_m + piece.span.s1_m), 0.5 * (piece.c0_m + piece.c1_m));
+    const Vector2d at = d.At(0.5 * (piece.span.s0_m + piece.span.s1_m), 0.5 * (piece.c0_m + piece.c1_m)) + plan_.origin.head<2>();
     if (piece.sheet) {
       sink_.Emit(DiagnosticKind::kMeshWallOfOneFace, location,
                  fmt::format("the wall around ({:.2f}, {:.2f}) has one face only; it is taken to be {:.2f} m thick", at.x(), at.y(),
@@ -286,7 +231,7 @@ class Planner {
     }
     std::vector<uint32_t> level, rest;
     for (uint32_t t = 0; t < object.solid.triangles.size(); ++t) {
-      if (taken_[o][t] == 0) (IsFloor(object.solid, object.solid.triangles[t]) ? level : rest).push_back(t);
+      if (!in_wall_[o][t]) (IsFloor(object.solid, object.solid.triangles[t]) ? level : rest).push_back(t);
     }
     AddElement(object, ElementKind::kSlab, level);
     AddElement(object, ElementKind::kOther, rest);
@@ -310,7 +255,7 @@ class Planner {
     e.guid = e.name = object.name;
     e.location = object.location;
     e.type = object.location.type;
-    Append(object.solid, triangles, e.body);
+    AppendPart(object.solid, triangles, e.body);
     plan_.elements.push_back(std::move(e));
   }
 
@@ -341,7 +286,8 @@ class Planner {
   std::vector<uint32_t> source_of_;  // in objects_, by wall object
   std::vector<FaceDirection> directions_;
   std::vector<StoreyWalls> storeys_;
-  std::vector<std::vector<char>> taken_;  // by object and triangle
+  std::vector<std::vector<bool>> in_wall_;   // by object and triangle
+  std::map<uint32_t, size_t> num_openings_;  // of walls, by element
   PlanIr plan_;
 };
 

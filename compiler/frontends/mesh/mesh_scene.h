@@ -20,6 +20,7 @@ enum class UpAxis : uint8_t { kX, kY, kZ };
 
 struct MeshScene {
   std::vector<MeshObject> objects;
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  // to be added to every corner
   std::optional<double> unit_m;  // length of the file's unit, where its format states one
   std::optional<UpAxis> up;      // as its format states
 };

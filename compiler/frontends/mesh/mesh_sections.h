@@ -1,5 +1,4 @@
-// Sections of a mesh as lines: upright faces grouped to vertical planes by direction and offset, with the stretches that each covers at
-// each height, and the pairs of faces that are the two sides of a wall.
+// Sections of a mesh as lines, the directions of its upright faces, and which way these face.
 #pragma once
 
 #include <Eigen/Core>
@@ -26,21 +25,10 @@ struct FaceDirection {
   [[nodiscard]] Eigen::Vector2d At(double s_m, double c_m) const { return s_m * along + c_m * across; }
 };
 
+inline constexpr double kSameDirection_rad = 0.005;  // faces within it are parallel
+
 // The directions of upright faces, those with the most area first; faces within half a degree of one belong to it.
 [[nodiscard]] std::vector<FaceDirection> FindDirections(const std::vector<MeshObject>& objects);
-
-struct Span {
-  double s0_m = 0, s1_m = 0;
-};
-
-// Two faces with solid between them, or one with nothing behind it, at the heights of the section.
-struct Band {
-  size_t direction = 0;
-  double c0_m = 0, c1_m = 0;             // offsets of its faces across; c0 < c1
-  uint32_t group = 0;                    // of objects that make walls together
-  bool sheet = false;                    // has one face only; the other one is made up
-  std::vector<std::vector<Span>> spans;  // by height: where it is solid, sorted
-};
 
 // How the triangles' orientation is to be read.
 enum class Facing : uint8_t { kOutward, kInward, kUnknown };
@@ -51,9 +39,5 @@ struct SectionStack {
 };
 
 [[nodiscard]] Facing FindFacing(const std::vector<FaceDirection>& directions, const SectionStack& stack, const MeshOptions& options);
-
-// `group_of`: by object. In the order of directions, groups and offsets.
-[[nodiscard]] std::vector<Band> FindBands(const std::vector<FaceDirection>& directions, const SectionStack& stack,
-                                          const std::vector<uint32_t>& group_of, Facing facing, const MeshOptions& options);
 
 }  // namespace plumb::compiler

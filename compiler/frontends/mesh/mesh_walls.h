@@ -3,9 +3,13 @@
 
 #include <vector>
 
-#include "compiler/frontends/mesh/mesh_sections.h"
+#include "compiler/frontends/mesh/mesh_bands.h"
 
 namespace plumb::compiler {
+
+inline constexpr double kWallWeld_m = 0.005;   // places along a wall closer than this are one
+inline constexpr double kWallHeight_m = 2.0;   // what stands from the floor to here is a wall, whatever is above
+inline constexpr double kMinWallGap_m = 0.05;  // the passes bridge smaller ones
 
 // A void in a wall.
 struct WallVoid {

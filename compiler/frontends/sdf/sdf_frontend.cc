@@ -78,12 +78,12 @@ class WorldReader {
     where.guid = path.filename().string();
     sink_.Emit(kind, where, std::move(message), std::move(hint));
   }
-  void Emit(DiagnosticKind kind, const XMLElement& e, std::string message) {
+  void Emit(DiagnosticKind kind, const XMLElement& e, std::string message, std::string hint = {}) {
     SourceLocation where;
     where.line = static_cast<uint32_t>(std::max(0, e.GetLineNum()));
     where.type = "element";
     where.guid = PathOf(e);
-    sink_.Emit(kind, where, std::move(message));
+    sink_.Emit(kind, where, std::move(message), std::move(hint));
   }
 
   static std::string PathOf(const XMLElement& e) {
@@ -167,12 +167,16 @@ class WorldReader {
   std::optional<fs::path> Find(const XMLElement& uri) {
     const FoundFile found = files_.Find(uri.GetText(), folder_);
     if (found.path) return found.path;
-    if (found.fault == UriFault::kOutside)
+    if (found.fault == UriFault::kOutside) {
       Emit(DiagnosticKind::kIncludeOutside, uri,
            fmt::format("`{}` lies on a network or above the world's folder; it is left out", uri.GetText()));
-    else
-      Emit(DiagnosticKind::kIncludeMissing, uri,
-           fmt::format("`{}` is not in the world's folder nor on the model path; it is left out", uri.GetText()));
+      return std::nullopt;
+    }
+    std::string folders = "the world's folder";
+    for (const std::string& folder : options_.model_path) folders += fmt::format(", `{}`", folder);
+    Emit(DiagnosticKind::kIncludeMissing, uri,
+         fmt::format("`{}` is not found in {} (nor in `models` there); it is left out", uri.GetText(), folders),
+         "name the folder that holds it: plumb compile --model-path FOLDER");
     return std::nullopt;
   }
 
@@ -277,7 +281,7 @@ class WorldReader {
       Emit(DiagnosticKind::kXmlBadValue, e, fmt::format("`{}` has coordinates that are no numbers; it is left out", uri->GetText()));
       return {};
     }
-    TransformSolid(T, out);
+    TransformSolid(T * Eigen::Translation3d(mesh->origin), out);
     return out;
   }
 

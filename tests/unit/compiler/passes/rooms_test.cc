@@ -61,6 +61,39 @@ TEST(FindRooms, AnLShapedRoomHasSixCorners) {
   EXPECT_NEAR(graph.rooms[0].yaw_rad, 0, 1e-9);
 }
 
+// A box of this inner size in the north-west corner of the two rooms, with or without a door to it.
+PlanIr WithCorner(double size_m, bool door) {
+  test::PlanBuilder b;
+  b.plan = test::TwoRooms();
+  b.plan.spaces.clear();
+  b.On(0);
+  const uint32_t south = b.Wall("corner_s", {0, 4 - size_m - 0.05}, {size_m + 0.1, 4 - size_m - 0.05}, 0.1);
+  b.Wall("corner_e", {size_m + 0.05, 4 - size_m}, {size_m + 0.05, 4}, 0.1);
+  if (door) b.Door("corner_d", south, 0.5 * size_m, 0.5);
+  return b.plan;
+}
+
+TEST(FindRooms, AClosetWithADoorIsARoom) {
+  EXPECT_EQ(Build(WithCorner(0.6, true)).graph.rooms.size(), 3u);
+  EXPECT_EQ(Build(WithCorner(1.1, true)).graph.rooms.size(), 3u);
+}
+
+TEST(FindRooms, ABoxedCornerWithoutADoorIsAShaft) {
+  EXPECT_EQ(Build(WithCorner(0.6, false)).graph.rooms.size(), 2u);
+  EXPECT_EQ(Build(WithCorner(1.1, false)).graph.rooms.size(), 2u);
+}
+
+TEST(FindRooms, ASmallRoomThatTheSourceNamesIsOneWithoutADoor) {
+  test::PlanBuilder b;
+  b.plan = WithCorner(1.1, false);
+  b.On(0).Space("Safe", test::Rectangle({0, 2.9}, {1.1, 4}));
+  const AGraph graph = Build(b.plan).graph;
+  EXPECT_EQ(graph.rooms.size(), 3u);
+  EXPECT_NE(FindRoom(graph, "Safe"), nullptr);
+}
+
+TEST(FindRooms, ALargerRoomNeedsNoDoor) { EXPECT_EQ(Build(WithCorner(1.5, false)).graph.rooms.size(), 3u); }
+
 TEST(FindRooms, FreeStandingWallsAndColumnsAreHoles) {
   PlanIr plan = test::TwoRooms();
   test::PlanBuilder b;

@@ -70,7 +70,7 @@ class SiteOffice : public testing::Test {
  protected:
   static AGraph Of(const char* name) {
     CompileOptions options;
-    options.dxf.drawing.heights.door_m = 2.1;
+    options.drawing.plan.heights.door_m = 2.1;
     const CompileResult result = Compile((fs::path(PLUMB_SOURCE_DIR) / "plans" / "site_office" / name).string(), options);
     EXPECT_TRUE(result.graph) << DiagnosticsToText(result.diagnostics.all(), name);
     return result.graph.value_or(AGraph());

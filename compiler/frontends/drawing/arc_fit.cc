@@ -13,6 +13,7 @@ namespace {
 constexpr double kMinShare = 0.25;    // of a closed line's length that arcs must have to be told
 constexpr double kAllCurved = 0.9;    // ... to be all of it
 constexpr double kMinSweep_rad = 0.3;
+constexpr size_t kFine = 12;  // points
 
 double TurnAt(std::span<const Eigen::Vector2d> p, size_t i) {
   const Eigen::Vector2d a = p[i] - p[i - 1], b = p[i + 1] - p[i];
@@ -82,6 +83,10 @@ void AddPart(const DrawnPath& path, size_t first, size_t last, const Arc* arc, s
 
 std::vector<ArcRun> FindArcRuns(std::span<const Eigen::Vector2d> points, const ArcFitOptions& options) {
   std::vector<ArcRun> out;
+  // Coordinates of few digits make the steps of a fine line turn to and fro: all of it may be an arc all the same.
+  if (points.size() > kFine) {
+    if (const auto arc = FitCircle(points, options.max_off_share)) return {{0, points.size() - 1, *arc}};
+  }
   for (size_t first = 0; first + options.min_steps < points.size();) {
     const size_t last = EndOfRun(points, first, options);
     if (last - first >= options.min_steps) {

@@ -83,6 +83,10 @@ class HatchingFinder {
       uint32_t at = i;
       for (uint32_t k = run[i]; k > 0 && at != kNone; --k, at = before[at]) hatch_[lines[at].path] = true;
     }
+    // Corners of hatched areas have rows of few lines.
+    const auto found = std::count_if(lines.begin(), lines.end(), [&](const Line& line) { return hatch_[line.path]; });
+    if (2 * static_cast<size_t>(found) < lines.size()) return;
+    for (const Line& line : lines) hatch_[line.path] = true;
   }
 
   uint32_t NextOf(const std::vector<Line>& lines, size_t i) const {

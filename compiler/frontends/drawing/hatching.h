@@ -12,7 +12,8 @@ struct HatchingOptions {
   double min_overlap = 0.5;        // of the shorter line, along it
 };
 
-// Takes out the lines of one layer that lie beside each other at equal distances, whatever the unit: hatching and the treads of stairs.
+// Takes out the lines of one layer that lie beside each other at equal distances, whatever the unit: hatching and the treads of stairs; with
+// them all others of their layer and direction, if they are most of these.
 // Returns how many. O(n log n) for drawings whose lines do not all lie over each other.
 size_t DropHatching(Drawing& drawing, const HatchingOptions& options = {});
 

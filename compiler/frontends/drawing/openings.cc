@@ -10,6 +10,7 @@
 #include <numbers>
 #include <set>
 
+#include "compiler/frontends/drawing/framed_doors.h"
 #include "compiler/frontends/drawing/plane.h"
 
 namespace plumb::compiler {
@@ -67,6 +68,9 @@ class OpeningFinder {
     AddGaps();
     for (const uint32_t p : symbols_) {
       if (!IsUsed(p)) AddFromSymbol(p);
+    }
+    for (DrawnOpening& framed : FindFramedDoors(drawing_, outline_.mass())) {
+      if (!IsKnown(framed)) out_.push_back(std::move(framed));
     }
     return std::move(out_);
   }

@@ -77,8 +77,29 @@ struct Place {
   SvgStyle style;
   uint32_t node = kNoSvgNode;
   std::string_view id;  // of the innermost element that has one
+  Eigen::AlignedBox2d clip = Eigen::AlignedBox2d(Vector2d::Constant(-2 * kMaxCoordinate), Vector2d::Constant(2 * kMaxCoordinate));
   int uses = 0;
 };
+
+// The part of a straight line within `box`; what is not straight stays whole as long as some of it may be within. False: nothing is.
+bool Clip(const Eigen::AlignedBox2d& box, SvgOutline& outline) {
+  Eigen::AlignedBox2d own;
+  for (const Vector2d& p : outline.points) own.extend(p);
+  if (box.contains(own)) return true;
+  if (!box.intersects(own)) return false;
+  if (outline.points.size() != 2) return true;
+  const Vector2d a = outline.points[0], d = outline.points[1] - a;
+  double from = 0, to = 1;
+  for (int k = 0; k < 2; ++k) {
+    if (d[k] == 0) continue;
+    const auto [lo, hi] = std::minmax((box.min()[k] - a[k]) / d[k], (box.max()[k] - a[k]) / d[k]);
+    from = std::max(from, lo);
+    to = std::min(to, hi);
+  }
+  if (from >= to) return false;
+  outline.points = {a + from * d, a + to * d};
+  return true;
+}
 
 class Reader {
  public:
@@ -159,6 +180,7 @@ class Reader {
       if (!T) return Bad(e, "its transform is none");
       place.T = place.T * *T;
     }
+    NarrowClip(e, place);
     if (IsOneOf(kind, {"g", "a", "switch"})) return VisitChildren(e, place);
     if (kind == "svg") return VisitViewport(e, e, place);
     if (kind == "use") return VisitUse(e, place);
@@ -168,6 +190,23 @@ class Reader {
       return;
     }
     AddShape(e, kind, place);
+  }
+
+  // To the box around its clip path, which is what drawing programs cut patterns with.
+  void NarrowClip(const XMLElement& e, Place& place) {
+    std::string_view reference = AttributeOf(e, "clip-path");
+    if (!reference.starts_with("url(#") || !reference.ends_with(")")) return;
+    const auto found = by_id_.find(reference.substr(5, reference.size() - 6));
+    if (found == by_id_.end() || AttributeOf(*found->second, "clipPathUnits") == "objectBoundingBox") return;
+    const Affine2d T = place.T * SvgTransform(AttributeOf(*found->second, "transform")).value_or(Affine2d::Identity());
+    Eigen::AlignedBox2d box;
+    for (const XMLElement* c = found->second->FirstChildElement(); c != nullptr; c = c->NextSiblingElement()) {
+      const Affine2d T_child = T * SvgTransform(AttributeOf(*c, "transform")).value_or(Affine2d::Identity());
+      for (const SvgOutline& outline : OutlinesOf(*c, LocalName(*c), place)) {
+        for (const Vector2d& p : outline.points) box.extend(T_child * p);
+      }
+    }
+    if (!box.isEmpty()) place.clip = place.clip.intersection(box);
   }
 
   double LengthOf(const XMLElement& e, const char* name, double whole, double otherwise = 0) const {
@@ -273,6 +312,7 @@ class Reader {
       }
     }
     full_ |= points_ >= options_.max_points;
+    std::erase_if(shape.outlines, [&](SvgOutline& outline) { return !Clip(place.clip, outline); });
     if (shape.outlines.empty()) return;
     shape.node = place.node;
     shape.fill_luminance = place.style.fill.luminance();

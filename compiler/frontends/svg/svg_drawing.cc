@@ -19,6 +19,16 @@ struct Meaning {
   std::string room_name;
 };
 
+// Lines that go on where the one before ends, as one.
+std::vector<SvgOutline> Joined(const std::vector<SvgOutline>& outlines) {
+  std::vector<SvgOutline> out;
+  for (const SvgOutline& o : outlines) {
+    if (out.empty() || out.back().closed || o.closed || out.back().points.back() != o.points.front()) out.push_back(o);
+    else out.back().points.insert(out.back().points.end(), o.points.begin() + 1, o.points.end());
+  }
+  return out;
+}
+
 class Converter {
  public:
   Converter(const SvgDocument& document, const LayerRules& rules) : document_(document) {
@@ -85,7 +95,7 @@ class Converter {
     path.layer = StyleOf(shape);
     if (shape.node != kNoSvgNode) path.symbol = meanings_[shape.node].symbol;
     path.location = shape.location;
-    for (const SvgOutline& outline : shape.outlines) {
+    for (const SvgOutline& outline : shape.fills ? shape.outlines : Joined(shape.outlines)) {
       path.points = outline.points;
       // A fill closes its outline. One that consists of several has holes, which lines alone tell.
       path.closed = outline.points.size() > 2 && (outline.closed || (shape.fills && !shape.strokes));

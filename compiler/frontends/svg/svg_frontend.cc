@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "compiler/frontends/drawing/hatching.h"
+#include "compiler/frontends/drawing/room_outlines.h"
 #include "compiler/frontends/drawing/strokes.h"
 #include "compiler/frontends/svg/svg_document.h"
 #include "compiler/frontends/svg/svg_drawing.h"
@@ -51,6 +52,7 @@ bool AppendSvg(const Source& source, const PlanStorey& storey, const DrawingFile
   }
   ScaleDrawing(MetresOf(*document, drawing, options, sink), drawing);
   WidenStrokes(drawing);
+  if (drawing.spaces.empty()) AddOutlinedRooms(drawing);
   return AppendDrawing(std::move(drawing), storey, options, plan, sink);
 }
 

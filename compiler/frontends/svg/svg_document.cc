@@ -92,7 +92,7 @@ bool Clip(const Eigen::AlignedBox2d& box, SvgOutline& outline) {
   double from = 0, to = 1;
   for (int k = 0; k < 2; ++k) {
     if (d[k] == 0) continue;
-    const auto [lo, hi] = std::minmax((box.min()[k] - a[k]) / d[k], (box.max()[k] - a[k]) / d[k]);
+    const auto [lo, hi] = std::minmax({(box.min()[k] - a[k]) / d[k], (box.max()[k] - a[k]) / d[k]});
     from = std::max(from, lo);
     to = std::min(to, hi);
   }

@@ -14,7 +14,7 @@ constexpr double kPixel_m = 0.0254 / 96;      // where no other length of a unit
 constexpr double kMinRatio = 10, kMaxRatio = 5000;
 constexpr double kCloseUnit = 0.12, kCloseRatio = 0.15;  // of the usual size, for a unit or ratio to be what was meant
 constexpr double kUsualPlan_m = 30;           // if there is nothing else to go by
-constexpr std::array kUsualRatios = {20.0, 24.0, 48.0, 50.0, 96.0, 100.0, 192.0, 200.0, 250.0, 384.0, 400.0, 500.0, 1000.0};
+constexpr std::array kUsualRatios = {20.0, 25.0, 50.0, 75.0, 100.0, 150.0, 200.0, 250.0, 300.0, 400.0, 500.0, 1000.0};
 constexpr std::array kUsualUnits = {"mm", "cm", "m", "in", "ft"};
 
 double ScaleBySizes(const DrawnSizes& sizes, const UnitOptions& options) {

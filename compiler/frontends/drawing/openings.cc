@@ -321,10 +321,21 @@ class OpeningFinder {
     return out;
   }
 
+  // The paths of its symbol that can lie in the wall: boxes if there are any, as swings and open leaves stand out of it.
+  std::vector<uint32_t> InWallPartsOf(uint32_t p) const {
+    const uint32_t symbol = drawing_.paths[p].symbol;
+    if (symbol == kNone) return {p};
+    std::vector<uint32_t> boxes;
+    for (const uint32_t q : paths_of_symbol_.at(symbol)) {
+      if (drawing_.paths[q].closed && drawing_.paths[q].arcs.empty()) boxes.push_back(q);
+    }
+    return boxes.empty() ? paths_of_symbol_.at(symbol) : boxes;
+  }
+
   // A window or a door without a swing whose box lies over a wall; its paths are looked at together.
   void AddOverWall(uint32_t p) {
     const DrawnPath& path = drawing_.paths[p];
-    const std::vector<uint32_t> members = path.symbol == kNone ? std::vector<uint32_t>{p} : paths_of_symbol_.at(path.symbol);
+    const std::vector<uint32_t> members = InWallPartsOf(p);
     Eigen::AlignedBox2d box;
     Eigen::Vector2d u = Eigen::Vector2d::Zero();
     for (const uint32_t q : members) {

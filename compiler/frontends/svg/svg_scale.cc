@@ -12,9 +12,10 @@ namespace {
 
 constexpr double kPixel_m = 0.0254 / 96;      // where no other length of a unit on paper is stated
 constexpr double kMinRatio = 10, kMaxRatio = 5000;
-constexpr double kCloseUnit = 0.12, kCloseRatio = 0.15;  // of the usual size, for a unit or ratio to be what was meant
+constexpr double kCloseUnit = 0.12, kCloseRatio = 0.2;  // of the usual size, for a unit or ratio to be what was meant
+constexpr double kLargestPaper_m = 4;
 constexpr double kUsualPlan_m = 30;           // if there is nothing else to go by
-constexpr std::array kUsualRatios = {20.0, 25.0, 50.0, 75.0, 100.0, 150.0, 200.0, 250.0, 300.0, 400.0, 500.0, 1000.0};
+constexpr std::array kUsualRatios = {20.0, 25.0, 50.0, 100.0, 200.0, 250.0, 500.0, 1000.0};
 constexpr std::array kUsualUnits = {"mm", "cm", "m", "in", "ft"};
 
 double ScaleBySizes(const DrawnSizes& sizes, const UnitOptions& options) {
@@ -48,10 +49,13 @@ std::vector<double> RatiosIn(const Drawing& drawing) {
 
 ScaleChoice ChooseScale(const DrawnSizes& sizes, const std::optional<double>& unit_on_paper_m, const std::vector<double>& ratios, const UnitOptions& options) {
   using Origin = ScaleChoice::Origin;
-  if (unit_on_paper_m && SizesHold(sizes, *unit_on_paper_m, options)) return {*unit_on_paper_m, Origin::kStated, {}};
+  // Walls that are drawn as single lines lie as far apart as rooms are wide: they count only where there is nothing better.
+  DrawnSizes firm = sizes;
+  if (sizes.door > 0 || sizes.extent * unit_on_paper_m.value_or(0) > kLargestPaper_m) firm.wall = 0;
+  if (unit_on_paper_m && SizesHold(firm, *unit_on_paper_m, options)) return {*unit_on_paper_m, Origin::kStated, {}};
   const double on_paper_m = unit_on_paper_m.value_or(kPixel_m);
   for (const double ratio : ratios) {
-    if (SizesHold(sizes, ratio * on_paper_m, options)) return Choice(ratio * on_paper_m, Origin::kRatio, fmt::format("a text states 1:{:g}", ratio), sizes);
+    if (SizesHold(firm, ratio * on_paper_m, options)) return Choice(ratio * on_paper_m, Origin::kRatio, fmt::format("a text states 1:{:g}", ratio), sizes);
   }
   const double seen = ScaleBySizes(sizes, options);
   const std::string page = unit_on_paper_m ? fmt::format("the page has user units of {:.4g} m, in which nothing has the size of a building", on_paper_m)

@@ -21,7 +21,7 @@
 #include "compiler/passes/alias_forecast.h"
 #include "compiler/passes/build_agraph.h"
 #include "compiler/source/source.h"
-#include "compiler/validate.h"
+#include "compiler/validate_graph.h"
 
 namespace plumb::compiler {
 namespace {

@@ -18,6 +18,7 @@ struct PlanWall {
   std::vector<uint32_t> elements;  // in PlanIr::elements, file order
   uint32_t storey = kNoIndex;      // the lowest one that holds a part of it
   double z_min_m = 0, z_max_m = 0;
+  std::vector<Arc> arcs = {};  // of its outline, where it is curved
 };
 
 // Storeys that share one map: those closer to the one below than a person is tall are landings or split levels of it.

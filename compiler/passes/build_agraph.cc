@@ -84,7 +84,7 @@ void AddElements(const PlanIr& plan, const FloorIr& floors, const OpeningElement
 std::string PassOptions::Check() const {
   if (!(section_height_m > 0 && section_height_m < 10))
     return fmt::format("PassOptions.section_height_m = {}; must be in (0, 10)", section_height_m);
-  for (const std::string& fault : {storeys.Check(), footprints.Check(), planar_map.Check(), bridges.Check(), division.Check(), rooms.Check(), naming.Check(),
+  for (const std::string& fault : {storeys.Check(), footprints.Check(), planar_map.Check(), bridges.Check(), division.Check(), arcs.Check(), rooms.Check(), naming.Check(),
                                    surfaces.Check(), hosting.Check(), doorways.Check()}) {
     if (!fault.empty()) return fault;
   }
@@ -105,6 +105,7 @@ std::optional<FloorIr> BuildFloors(PlanIr& plan, const PassOptions& options, Dia
     sink.Emit(DiagnosticKind::kInternalError, {}, ok.error().message);
     return std::nullopt;
   }
+  FindWallArcs(plan, options.arcs, floors);
   ReportBridges(plan, floors, sink);
   if (options.verify && !Passes(VerifyFloorIr(floors, plan), "FloorIr", sink)) return std::nullopt;
   return floors;
@@ -120,7 +121,7 @@ std::optional<Built> BuildAGraph(PlanIr& plan, const PassOptions& options, Diagn
   const RoomsByFace rooms = FindRooms(plan, out.floors, options.rooms, graph, sink);
   SetLastStoreyHeight(graph);
   NameRooms(plan, out.floors, options.naming, graph, sink);
-  AddSurfaces(plan, out.floors, rooms, options.surfaces, graph);
+  AddSurfaces(out.floors, rooms, options.surfaces, graph);
   const std::vector<HostedOpening> hosted = HostOpenings(plan, out.floors, options.hosting, graph, sink);
   const OpeningElements openings = AddDoorwaysAndWindows(plan, out.floors, rooms, hosted, options.doorways, graph, sink);
   AddOpenBoundaries(out.floors, rooms, graph);

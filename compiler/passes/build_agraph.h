@@ -13,6 +13,7 @@
 #include "compiler/passes/name_rooms.h"
 #include "compiler/passes/planar_map.h"
 #include "compiler/passes/rooms.h"
+#include "compiler/passes/wall_arcs.h"
 #include "compiler/passes/wall_footprints.h"
 #include "compiler/passes/wall_surfaces.h"
 
@@ -26,6 +27,7 @@ struct PassOptions {
   PlanarMapOptions planar_map;
   BridgeOptions bridges;
   DivideOptions division;
+  WallArcOptions arcs;
   RoomOptions rooms;
   NamingOptions naming;
   SurfaceOptions surfaces;

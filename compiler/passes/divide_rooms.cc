@@ -7,6 +7,7 @@
 #include <optional>
 #include <set>
 
+#include "compiler/geometry/box_tree.h"
 #include "compiler/passes/face_locator.h"
 #include "compiler/passes/polygon.h"
 #include "compiler/passes/section.h"
@@ -23,21 +24,37 @@ struct Outline {
   double free_m2;  // without what lies under walls: some are drawn to the middle of the walls
 };
 
-double FreeArea(const std::vector<Ring>& rings, double area_m2, const Floor& floor) {
-  const Eigen::AlignedBox2d box = BoundingBox(rings);
+// By place: of things with rings, in their order.
+template <class Things>
+BoxTree<2> BoxesOf(const Things& things) {
+  std::vector<Eigen::AlignedBox2d> boxes;
+  for (const auto& thing : things) boxes.push_back(BoundingBox(thing.rings));
+  return BoxTree<2>(std::move(boxes));
+}
+
+std::vector<uint32_t> SortedIn(const Eigen::AlignedBox2d& box, const BoxTree<2>& tree) {
+  std::vector<uint32_t> out;
+  tree.ForEachIn(box, [&](uint32_t i) { out.push_back(i); });
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+double FreeArea(const std::vector<Ring>& rings, double area_m2, const Floor& floor, const BoxTree<2>& footprints) {
   std::vector<Ring> walls;
-  for (const Footprint& f : floor.footprints) {
-    if (f.bounds_rooms && box.intersects(BoundingBox(f.rings))) walls.insert(walls.end(), f.rings.begin(), f.rings.end());
+  for (const uint32_t i : SortedIn(BoundingBox(rings), footprints)) {
+    const Footprint& f = floor.footprints[i];
+    if (f.bounds_rooms) walls.insert(walls.end(), f.rings.begin(), f.rings.end());
   }
   return area_m2 - OverlapArea(rings, walls);
 }
 
 // Of the spaces within the face those that do not overlap: smaller ones first, so that zones of several spaces drop out.
-std::vector<Outline> PartsOf(const std::vector<Ring>& face, const std::vector<Outline>& outlines, const DivideOptions& options) {
+std::vector<Outline> PartsOf(const std::vector<Ring>& face, const std::vector<Outline>& outlines, const BoxTree<2>& tree,
+                             const DivideOptions& options) {
   std::vector<Outline> inside;
-  const Eigen::AlignedBox2d box = BoundingBox(face);
-  for (const Outline& o : outlines) {
-    if (o.area_m2 < options.min_area_m2 || !box.intersects(BoundingBox(o.rings))) continue;
+  for (const uint32_t i : SortedIn(BoundingBox(face), tree)) {
+    const Outline& o = outlines[i];
+    if (o.area_m2 < options.min_area_m2) continue;
     if (OverlapArea(face, o.rings) >= options.min_inside_share * o.free_m2) inside.push_back(o);
   }
   std::stable_sort(inside.begin(), inside.end(), [](const Outline& a, const Outline& b) { return a.area_m2 < b.area_m2; });
@@ -51,8 +68,8 @@ std::vector<Outline> PartsOf(const std::vector<Ring>& face, const std::vector<Ou
   return out;
 }
 
-// From each corner to the nearest place on the face's walls. Spaces are drawn to the plaster or with a margin: without these lines the strip
-// around several spaces is one piece.
+// From each corner to the nearest place on the face's walls. Spaces are drawn to the plaster or with a margin: without these lines the
+// strip around several spaces is one piece.
 std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> SpokesOf(const std::vector<Ring>& outline, const std::vector<Ring>& face,
                                                                   double max_m) {
   std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> out;
@@ -128,17 +145,20 @@ Expected<void> DivideRooms(const PlanIr& plan, const DivideOptions& options, con
                            DiagnosticSink& sink) {
   if (!options.divide) return {};
   std::vector<std::vector<Outline>> outlines(floors.floors.size());
+  std::vector<BoxTree<2>> footprints;
+  for (const Floor& floor : floors.floors) footprints.push_back(BoxesOf(floor.footprints));
   for (uint32_t s = 0; s < plan.spaces.size(); ++s) {
     const size_t f = FloorOfStorey(floors, plan.spaces[s].storey);
     std::vector<Ring> rings = SpaceOutline(plan.spaces[s], floors.floors[f]);
-    const double area = RegionArea(rings), free = FreeArea(rings, area, floors.floors[f]);
+    const double area = RegionArea(rings), free = FreeArea(rings, area, floors.floors[f], footprints[f]);
     outlines[f].push_back({s, std::move(rings), area, free});
   }
   for (size_t f = 0; f < floors.floors.size(); ++f) {
     Floor& floor = floors.floors[f];
+    const BoxTree<2> tree = BoxesOf(outlines[f]);
     for (const FloorFace& face : floor.faces) {
       if (!face.bounded() || !face.cover.empty()) continue;
-      std::vector<Outline> parts = PartsOf(FaceRings(floor, face), outlines[f], options);
+      std::vector<Outline> parts = PartsOf(FaceRings(floor, face), outlines[f], tree, options);
       if (parts.size() < 2) continue;
       for (Outline& part : parts) {
         auto spokes = SpokesOf(part.rings, FaceRings(floor, face), map_options.max_strip_width_m);

@@ -19,18 +19,20 @@ std::vector<Ring> FaceRings(const Floor& floor, const FloorFace& face) {
 }
 
 FaceLocator::FaceLocator(const Floor& floor) {
+  std::vector<Eigen::AlignedBox2d> boxes;
   for (size_t i = 1; i < floor.faces.size(); ++i) {
-    std::vector<Ring> rings = FaceRings(floor, floor.faces[i]);
-    const Eigen::AlignedBox2d box = BoundingBox(rings);
-    entries_.push_back({std::move(rings), box});
+    rings_.push_back(FaceRings(floor, floor.faces[i]));
+    boxes.push_back(BoundingBox(rings_.back()));
   }
+  boxes_ = BoxTree<2>(std::move(boxes));
 }
 
 uint32_t FaceLocator::FaceAt(const Eigen::Vector2d& p) const {
-  for (size_t i = 0; i < entries_.size(); ++i) {
-    if (entries_[i].box.contains(p) && WindingNumber(entries_[i].rings, p) != 0) return static_cast<uint32_t>(i + 1);
-  }
-  return 0;
+  uint32_t first = kNoIndex;
+  boxes_.ForEachIn(Eigen::AlignedBox2d(p), [&](uint32_t i) {
+    if (i < first && WindingNumber(rings_[i], p) != 0) first = i;
+  });
+  return first == kNoIndex ? 0 : first + 1;
 }
 
 }  // namespace plumb::compiler

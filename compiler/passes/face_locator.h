@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
+#include "compiler/geometry/box_tree.h"
 #include "compiler/ir/floor_ir.h"
 
 namespace plumb::compiler {
@@ -15,15 +16,12 @@ namespace plumb::compiler {
 class FaceLocator {
  public:
   explicit FaceLocator(const Floor& floor);
-  // On an edge: either side. 0 is the unbounded face. O(faces + edges of those whose box holds `p`).
+  // On an edge: either side. 0 is the unbounded face. O(log faces + edges of those whose box holds `p`).
   [[nodiscard]] uint32_t FaceAt(const Eigen::Vector2d& p) const;
 
  private:
-  struct Entry {
-    std::vector<Ring> rings;
-    Eigen::AlignedBox2d box;
-  };
-  std::vector<Entry> entries_;  // of faces 1, 2, ...
+  std::vector<std::vector<Ring>> rings_;  // of faces 1, 2, ...
+  BoxTree<2> boxes_;
 };
 
 }  // namespace plumb::compiler

@@ -274,7 +274,7 @@ class Host {
     const Wall& wall = graph_.walls[w];
     const Eigen::Vector2d axis = wall.axis_end - wall.axis_start;
     const double off_axis = axis.norm() > 0 ? std::abs(Cross(axis.normalized(), p - wall.axis_start)) : 0;
-    const bool curved = !plan_.elements[floors_.walls[w].elements[0]].arcs.empty() || off_axis > wall.thickness_m;
+    const bool curved = !floors_.walls[w].arcs.empty() || off_axis > wall.thickness_m;
     if (!curved && axis.norm() > 0) return axis.normalized();
     // Bent walls: the direction of the side next to it.
     double best_m = std::numeric_limits<double>::infinity();

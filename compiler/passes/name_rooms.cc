@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "compiler/geometry/box_tree.h"
 #include "compiler/passes/divide_rooms.h"
 #include "compiler/passes/polygon.h"
 
@@ -59,12 +60,17 @@ class Namer {
   }
 
   void Pair() {
+    std::vector<Eigen::AlignedBox2d> boxes;
+    for (const OutlineOnFloor& o : outlines_) boxes.push_back(BoundingBox(o.rings));
+    const BoxTree<2> tree(std::move(boxes));
     for (size_t r = 0; r < graph_.rooms.size(); ++r) {
       const std::vector<Ring> rings = RingsOf(graph_.rooms[r]);
-      const Eigen::AlignedBox2d box = BoundingBox(rings);
-      for (size_t s = 0; s < outlines_.size(); ++s) {
+      std::vector<size_t> near;
+      tree.ForEachIn(BoundingBox(rings), [&](uint32_t s) { near.push_back(s); });
+      std::sort(near.begin(), near.end());
+      for (size_t s : near) {
         const OutlineOnFloor& outline = outlines_[s];
-        if (outline.floor != FloorOfStorey(floors_, graph_.rooms[r].storey.value) || !box.intersects(BoundingBox(outline.rings))) continue;
+        if (outline.floor != FloorOfStorey(floors_, graph_.rooms[r].storey.value)) continue;
         const double overlap = OverlapArea(rings, outline.rings), both = graph_.rooms[r].area_m2 + outline.area_m2 - overlap;
         if (overlap > 0 && both > 0) pairs_.push_back({overlap, overlap / both, r, s});
       }
@@ -90,6 +96,12 @@ class Namer {
   }
 
   void Report() {
+    std::vector<const Pairing*> part_of(outlines_.size(), nullptr);  // the first pairing with a room that holds most of the space
+    std::vector<bool> touched(graph_.rooms.size(), false);
+    for (const Pairing& p : pairs_) {
+      if (part_of[p.space] == nullptr && p.overlap_m2 > 0.5 * outlines_[p.space].area_m2) part_of[p.space] = &p;
+      if (p.overlap_m2 > kTouches * graph_.rooms[p.room].area_m2) touched[p.room] = true;
+    }
     for (size_t s = 0; s < outlines_.size(); ++s) {
       const PlanSpace& space = plan_.spaces[s];
       if (outlines_[s].rings.empty()) {
@@ -97,12 +109,10 @@ class Namer {
         continue;
       }
       if (room_of_space_[s] != kNoIndex) continue;
-      const auto part_of = std::find_if(pairs_.begin(), pairs_.end(),
-                                        [&](const Pairing& p) { return p.space == s && p.overlap_m2 > 0.5 * outlines_[s].area_m2; });
-      if (part_of != pairs_.end()) {
+      if (part_of[s] != nullptr) {
         sink_.Emit(DiagnosticKind::kSpaceWithinRoom, space.location,
                    fmt::format("no walls divide space `{}` ({:.2f} m2) from the rest of a room of {:.2f} m2", Label(space),
-                               outlines_[s].area_m2, graph_.rooms[part_of->room].area_m2));
+                               outlines_[s].area_m2, graph_.rooms[part_of[s]->room].area_m2));
       } else {
         sink_.Emit(DiagnosticKind::kSpaceWithoutRoom, space.location,
                    fmt::format("no walls close around space `{}` ({:.2f} m2)", Label(space), outlines_[s].area_m2));
@@ -110,9 +120,7 @@ class Namer {
     }
     for (size_t r = 0; r < graph_.rooms.size() && !plan_.spaces.empty(); ++r) {
       const Room& room = graph_.rooms[r];
-      const bool touched = std::any_of(pairs_.begin(), pairs_.end(),
-                                       [&](const Pairing& p) { return p.room == r && p.overlap_m2 > kTouches * room.area_m2; });
-      if (touched) continue;
+      if (touched[r]) continue;
       sink_.Emit(
           DiagnosticKind::kRoomWithoutSpace, {},
           fmt::format("the room of {:.2f} m2 around ({:.2f}, {:.2f}) on `{}` has no space", room.area_m2,

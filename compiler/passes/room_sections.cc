@@ -14,12 +14,13 @@
 namespace plumb::compiler {
 namespace {
 
-constexpr double kStepOff_m = 0.02;       // before a section, to see which room it faces
-constexpr double kSameFloor_m = 0.01;     // floors this close are cut together
-constexpr double kRoomCell_m = 2.0;       // of the grid that finds the room at a place
-constexpr double kMinCell_m = 0.25;       // of the grid that finds points
-constexpr double kMinSlope = 0.1;         // horizontal part of the normal of a face that is no floor
-constexpr int kMaxCells = 256;            // along one side of a grid
+constexpr double kStepOff_m = 0.02;    // before a section, to see which room it faces
+constexpr double kSameFloor_m = 0.01;  // floors this close are cut together
+constexpr double kRoomCell_m = 2.0;    // of the grid that finds the room at a place
+constexpr double kMinCell_m = 0.25;    // of the grid that finds points
+constexpr double kMinSlope = 0.1;      // horizontal part of the normal of a face that is no floor
+constexpr size_t kLeastCompared = 16;  // points of a room
+constexpr int kMaxCells = 256;         // along one side of a grid
 
 bool IsFixed(const Element& e) {
   return e.material != Material::kGlass && e.kind != ElementKind::kDoor && e.kind != ElementKind::kFurniture && !e.doorway.valid();
@@ -74,7 +75,9 @@ class Level {
     Eigen::AlignedBox2d box;
     std::vector<Ring> rings;
   };
-  std::vector<size_t>& CellOf(int x, int y) { return cells_[static_cast<size_t>(y) * static_cast<size_t>(columns_) + static_cast<size_t>(x)]; }
+  std::vector<size_t>& CellOf(int x, int y) {
+    return cells_[static_cast<size_t>(y) * static_cast<size_t>(columns_) + static_cast<size_t>(x)];
+  }
   [[nodiscard]] const std::vector<size_t>& CellOf(int x, int y) const {
     return cells_[static_cast<size_t>(y) * static_cast<size_t>(columns_) + static_cast<size_t>(x)];
   }
@@ -121,13 +124,16 @@ std::vector<Plane> PlanesOf(const std::vector<Level>& levels, const std::vector<
 }  // namespace
 
 std::string SectionOptions::Check() const {
-  if (heights_m.empty() || heights_m.size() > 8) return fmt::format("SectionOptions.heights_m has {} entries; must have 1 to 8", heights_m.size());
+  if (heights_m.empty() || heights_m.size() > 8)
+    return fmt::format("SectionOptions.heights_m has {} entries; must have 1 to 8", heights_m.size());
   for (double h : heights_m) {
     if (!(h > 0 && h < 10)) return fmt::format("SectionOptions.heights_m has {}; must be in (0, 10)", h);
   }
   if (!(step_m >= 0.01 && step_m <= 1)) return fmt::format("SectionOptions.step_m = {}; must be in [0.01, 1]", step_m);
   if (!(tolerance_m > 0 && tolerance_m < 1)) return fmt::format("SectionOptions.tolerance_m = {}; must be in (0, 1)", tolerance_m);
-  if (!(max_turn_rad > 0 && max_turn_rad < 1.57)) return fmt::format("SectionOptions.max_turn_rad = {}; must be in (0, pi/2)", max_turn_rad);
+  if (!(max_turn_rad > 0 && max_turn_rad < 1.57))
+    return fmt::format("SectionOptions.max_turn_rad = {}; must be in (0, pi/2)", max_turn_rad);
+  if (max_compared == 0) return "SectionOptions.max_compared = 0; must be positive";
   return {};
 }
 
@@ -174,7 +180,8 @@ class RoomSections::Cutter {
     }
     const Level& level = levels_[plane.level];
     if (n < 2) return;
-    const Eigen::AlignedBox2d before = Eigen::AlignedBox2d(ends[0].cwiseMin(ends[1]), ends[0].cwiseMax(ends[1])).translated(kStepOff_m * normal);
+    const Eigen::AlignedBox2d before =
+        Eigen::AlignedBox2d(ends[0].cwiseMin(ends[1]), ends[0].cwiseMax(ends[1])).translated(kStepOff_m * normal);
     if (!level.box().intersects(before)) return;
     const double length_m = (ends[1] - ends[0]).norm();
     for (; owed_m_ < length_m; owed_m_ += options_.step_m) {
@@ -198,6 +205,7 @@ RoomSections::RoomSections(const AGraph& graph, const std::vector<bool>& wanted,
   const auto found = Cutter(graph, wanted, options_).Run();
   for (const auto& [room, point] : found) ++begin_[room.index() + 1];
   std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+  stride_ = 1 + found.size() / options_.max_compared;
   points_.resize(found.size());
   std::vector<uint32_t> next(begin_.begin(), begin_.end() - 1);
   for (const auto& [room, point] : found) points_[next[room.index()]++] = point;
@@ -236,7 +244,8 @@ bool RoomSections::Coincides(RoomId room, const SectionPoint& p) const {
   const int x0 = CellAt(at.x() - along_m, grid.cell_m, grid.columns), x1 = CellAt(at.x() + along_m, grid.cell_m, grid.columns);
   const int y0 = CellAt(at.y() - along_m, grid.cell_m, grid.rows), y1 = CellAt(at.y() + along_m, grid.cell_m, grid.rows);
   for (int y = y0; y <= y1; ++y) {
-    const size_t row = (static_cast<size_t>(p.height) * static_cast<size_t>(grid.rows) + static_cast<size_t>(y)) * static_cast<size_t>(grid.columns);
+    const size_t row =
+        (static_cast<size_t>(p.height) * static_cast<size_t>(grid.rows) + static_cast<size_t>(y)) * static_cast<size_t>(grid.columns);
     for (uint32_t i = grid.begin[row + static_cast<size_t>(x0)]; i < grid.begin[row + static_cast<size_t>(x1) + 1]; ++i) {
       const Eigen::Vector2d off = points_[i].at - p.at;
       if (std::abs(off.dot(p.normal)) <= options_.tolerance_m && std::abs(Cross(p.normal, off)) <= along_m &&
@@ -248,7 +257,10 @@ bool RoomSections::Coincides(RoomId room, const SectionPoint& p) const {
 }
 
 void RoomSections::CompareOneWay(RoomId from, const PlanarMotion& motion, RoomId to, SectionComparison& out) const {
-  for (SectionPoint p : Of(from)) {
+  const std::span<const SectionPoint> points = Of(from);
+  const size_t stride = std::clamp<size_t>(points.size() / kLeastCompared, 1, stride_);
+  for (size_t i = 0; i < points.size(); i += stride) {
+    SectionPoint p = points[i];
     ++out.points;
     p.at = motion.Apply(p.at);
     p.normal = motion.Rotate(p.normal);

@@ -17,6 +17,7 @@ struct SectionOptions {
   double step_m = 0.1;                         // between the points along a section
   double tolerance_m = 0.06;                   // off a section that still coincides with it
   double max_turn_rad = 0.35;                  // between the normals of sections that coincide
+  size_t max_compared = 1 << 17;               // points of all rooms; of more, each room has only some compared, but 16
   [[nodiscard]] std::string Check() const;
 };
 
@@ -43,7 +44,9 @@ class RoomSections {
   // does not face a room. O(T log L + S) for T triangles, L floor levels and S points.
   RoomSections(const AGraph& graph, const std::vector<bool>& wanted, const SectionOptions& options);
 
-  [[nodiscard]] std::span<const SectionPoint> Of(RoomId room) const { return {points_.data() + begin_[room.index()], points_.data() + begin_[room.index() + 1]}; }
+  [[nodiscard]] std::span<const SectionPoint> Of(RoomId room) const {
+    return {points_.data() + begin_[room.index()], points_.data() + begin_[room.index() + 1]};
+  }
 
   // The points of `from` after `motion` (mesh frame) against those of `to`, and back.
   [[nodiscard]] SectionComparison Compare(RoomId from, const PlanarMotion& motion, RoomId to) const;
@@ -65,6 +68,7 @@ class RoomSections {
 
   SectionOptions options_;
   double min_cos_;
+  size_t stride_ = 1;                 // every so many-th point of a room is compared
   std::vector<SectionPoint> points_;  // by room, then by cell of its grid
   std::vector<uint32_t> begin_;       // per room, and the end
   std::vector<Grid> grids_;           // per room

@@ -156,7 +156,7 @@ void AddWalls(const PlanIr& plan, const FloorIr& floors, AGraph& graph) {
     const Eigen::Vector2d stated = element.axis ? Eigen::Vector2d(element.axis->second - element.axis->first) : Eigen::Vector2d(0, 0);
     const Footprint* footprint = FootprintOf(floors, w);
     const std::vector<Ring> rings = footprint != nullptr ? footprint->rings : Silhouette(plan, in);
-    WallAxis axis = AxisOfArcs(element.arcs).value_or(AxisOfFootprint(rings, stated));
+    WallAxis axis = AxisOfArcs(in.arcs).value_or(AxisOfFootprint(rings, stated));
     if (stated.dot(axis.end - axis.start) < 0) std::swap(axis.start, axis.end);
     out.axis_start = axis.start;
     out.axis_end = axis.end;

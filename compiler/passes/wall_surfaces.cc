@@ -29,8 +29,8 @@ double Wrapped(double angle) { return std::remainder(angle, 2 * std::numbers::pi
 
 class SurfaceBuilder {
  public:
-  SurfaceBuilder(const PlanIr& plan, const FloorIr& floors, const RoomsByFace& rooms, const SurfaceOptions& options, AGraph& graph)
-      : plan_(plan), floors_(floors), rooms_(rooms), options_(options), graph_(graph) {}
+  SurfaceBuilder(const FloorIr& floors, const RoomsByFace& rooms, const SurfaceOptions& options, AGraph& graph)
+      : floors_(floors), rooms_(rooms), options_(options), graph_(graph) {}
 
   void Run() {
     for (size_t f = 0; f < floors_.floors.size(); ++f) {
@@ -61,7 +61,7 @@ class SurfaceBuilder {
       const uint32_t w = floor.footprints[f].wall;
       if (w == kNoIndex || (!behind.empty() && !std::binary_search(behind.begin(), behind.end(), f))) continue;
       const Wall& wall = graph_.walls[w];
-      const bool curved = !ElementOf(w).arcs.empty();
+      const bool curved = !ArcsOf(w).empty();
       const bool is_side = curved || std::abs(Cross(along, (wall.axis_end - wall.axis_start).normalized())) < kAlongAxis;
       if (best != kNoIndex) {
         const Wall& rival = graph_.walls[best];
@@ -77,11 +77,11 @@ class SurfaceBuilder {
     return {best, ArcOf(best, From(floor, edge), To(floor, edge))};
   }
 
-  const PlanElement& ElementOf(uint32_t wall) const { return plan_.elements[floors_.walls[wall].elements[0]]; }
+  const std::vector<Arc>& ArcsOf(uint32_t wall) const { return floors_.walls[wall].arcs; }
 
   // The arc of the wall that both points lie on, counted from 1.
   size_t ArcOf(uint32_t wall, const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {
-    const std::vector<Arc>& arcs = ElementOf(wall).arcs;
+    const std::vector<Arc>& arcs = ArcsOf(wall);
     for (size_t i = 0; i < arcs.size(); ++i) {
       const auto off = [&](const Eigen::Vector2d& p) { return std::abs((p - arcs[i].center).norm() - arcs[i].radius_m); };
       if (off(a) <= options_.arc_m && off(b) <= options_.arc_m) return i + 1;
@@ -147,7 +147,7 @@ class SurfaceBuilder {
     s.end = run.points.back();
     s.normal << Rot90Ccw(along.normalized()), 0;
     s.d_m = -s.normal.head<2>().dot(s.midpoint());
-    if (run.owner.arc != 0) s.arc = ArcAlong(ElementOf(run.owner.wall).arcs[run.owner.arc - 1], run.points);
+    if (run.owner.arc != 0) s.arc = ArcAlong(ArcsOf(run.owner.wall)[run.owner.arc - 1], run.points);
     if (room.valid()) {
       const Room& r = graph_.rooms[room.index()];
       s.storey = r.storey;
@@ -203,7 +203,6 @@ class SurfaceBuilder {
     }
   }
 
-  const PlanIr& plan_;
   const FloorIr& floors_;
   const RoomsByFace& rooms_;
   const SurfaceOptions& options_;
@@ -232,8 +231,8 @@ std::string SurfaceOptions::Check() const {
   return {};
 }
 
-void AddSurfaces(const PlanIr& plan, const FloorIr& floors, const RoomsByFace& rooms, const SurfaceOptions& options, AGraph& graph) {
-  SurfaceBuilder(plan, floors, rooms, options, graph).Run();
+void AddSurfaces(const FloorIr& floors, const RoomsByFace& rooms, const SurfaceOptions& options, AGraph& graph) {
+  SurfaceBuilder(floors, rooms, options, graph).Run();
 }
 
 void AddFactors(AGraph& graph) {

@@ -10,7 +10,7 @@
 
 #include "compiler/compile.h"
 #include "compiler/passes/polygon.h"
-#include "compiler/validate.h"
+#include "compiler/validate_graph.h"
 #include "schema/agraph_json.h"
 #include "schema/agraph_reader.h"
 #include "schema/agraph_writer.h"

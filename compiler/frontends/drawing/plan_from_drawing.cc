@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "compiler/frontends/drawing/plane.h"
 #include "compiler/frontends/drawing/room_names.h"
@@ -14,9 +15,9 @@ namespace plumb::compiler {
 namespace {
 
 constexpr double kOff_m = 1e-3;
-constexpr double kSliver_m = 0.02;          // leftovers thinner than this are rounding
+constexpr double kSliver_m = 0.02;  // leftovers thinner than this are rounding
 constexpr double kMinLeftover_m2 = 1e-3;
-constexpr double kSymbolDepth_m = 0.04;     // of a door leaf in its opening
+constexpr double kSymbolDepth_m = 0.04;  // of a door leaf in its opening
 
 Solid Prism(const std::vector<Eigen::Vector2d>& ring, double bottom_m, double top_m) {
   Solid out = Extrude({ring}, {0, 0, top_m - bottom_m});
@@ -29,6 +30,7 @@ class StoreyBuilder {
   StoreyBuilder(const Drawing& drawing, const PlanStorey& storey, const DrawingOptions& options, PlanIr& plan, DiagnosticSink& sink)
       : drawing_(drawing), options_(options), plan_(plan), sink_(sink), base_m_(storey.elevation_m) {
     plan.storeys.push_back(storey);
+    NoteOtherStoreys();
     storey_ = static_cast<uint32_t>(plan.storeys.size() - 1);
     top_m_ = base_m_ + options.heights.storey_m;
   }
@@ -51,7 +53,8 @@ class StoreyBuilder {
 
  private:
   bool Fail() {
-    sink_.Emit(DiagnosticKind::kPlanTooComplex, {}, fmt::format("the drawing's lines cross more than {} times", options_.mass.max_vertices));
+    sink_.Emit(DiagnosticKind::kPlanTooComplex, {},
+               fmt::format("the drawing's lines cross more than {} times", options_.mass.max_vertices));
     return false;
   }
 
@@ -70,8 +73,10 @@ class StoreyBuilder {
       const DrawnPath& path = drawing_.paths[p];
       const bool wall = path.role == LineRole::kWall || path.role == LineRole::kColumn;
       const bool swing = std::any_of(path.arcs.begin(), path.arcs.end(), [&](const Arc& a) { return IsSwing(a, options_.openings); });
-      if (wall || (path.role == LineRole::kAny && !swing && !IsLeaf(path, swings, tree))) wall_paths_.push_back(p);
-      else symbols_.push_back(p);
+      if (wall || (path.role == LineRole::kAny && !swing && !IsLeaf(path, swings, tree)))
+        wall_paths_.push_back(p);
+      else
+        symbols_.push_back(p);
     }
   }
 
@@ -79,7 +84,8 @@ class StoreyBuilder {
   static bool IsLeaf(const DrawnPath& path, const std::vector<const Arc*>& swings, const BoxTree<2>& tree) {
     if (path.points.size() < 2 || path.points.size() > 5) return false;
     const Eigen::AlignedBox2d box = BoxOf(path.points);
-    const double length = (path.points[1] - path.points[0]).norm(), longest = std::max(length, path.points.size() > 2 ? (path.points[2] - path.points[1]).norm() : 0);
+    const double length = (path.points[1] - path.points[0]).norm(),
+                 longest = std::max(length, path.points.size() > 2 ? (path.points[2] - path.points[1]).norm() : 0);
     const double width = path.points.size() == 2 ? 0 : LesserSide(path.points);
     bool leaf = false;
     const Eigen::Vector2d reach = Eigen::Vector2d::Constant(0.08);
@@ -96,11 +102,22 @@ class StoreyBuilder {
     return path < drawing_.paths.size() ? drawing_.paths[path].location : nowhere;
   }
 
-  // Source ids are unique in the plan: the second wall of one polyline has "2F#2".
+  // Source ids are unique in the plan: the second wall of one polyline has "2F#2", one of another storey with an id that was there before
+  // "Upper floor:2F".
   std::string UniqueGuid(const SourceLocation& at) {
     if (at.guid.empty()) return {};
-    const int number = ++guids_[at.guid];
-    return number == 1 ? at.guid : fmt::format("{}#{}", at.guid, number);
+    const std::string guid = of_other_storeys_.contains(at.guid) ? fmt::format("{}:{}", plan_.storeys[storey_].name, at.guid) : at.guid;
+    const int number = ++guids_[guid];
+    return number == 1 ? guid : fmt::format("{}#{}", guid, number);
+  }
+
+  void NoteOtherStoreys() {
+    const auto note = [&](const auto& items) {
+      for (const auto& item : items) of_other_storeys_.insert(item.guid.substr(0, item.guid.find('#')));
+    };
+    note(plan_.elements);
+    note(plan_.openings);
+    note(plan_.spaces);
   }
 
   PlanElement NewElement(ElementKind kind, const SourceLocation& location) {
@@ -111,10 +128,6 @@ class StoreyBuilder {
     out.guid = UniqueGuid(location);
     out.storey = storey_;
     return out;
-  }
-
-  std::vector<Eigen::Vector2d> Part(const WallRun& run, double from_m, double to_m) const {
-    return {run.At(from_m, run.right_m), run.At(to_m, run.right_m), run.At(to_m, run.left_m), run.At(from_m, run.left_m)};
   }
 
   void AddWall(WallRun& run) {
@@ -128,13 +141,13 @@ class StoreyBuilder {
     double at = run.start_m;
     for (const uint32_t o : run.openings) {
       const auto [from, to] = Extent(run, o);
-      if (from > at + kOff_m) AppendSolid(Prism(Part(run, at, from), base_m_, top_m_), wall.body);
+      if (from > at + kOff_m) AppendSolid(Prism(run.Part(at, from), base_m_, top_m_), wall.body);
       const auto [sill, head] = HeightsOf(openings_[o].use);
-      if (head < top_m_) AppendSolid(Prism(Part(run, std::max(at, from), to), head, top_m_), wall.body);
-      if (sill > base_m_) AppendSolid(Prism(Part(run, std::max(at, from), to), base_m_, sill), wall.body);
+      if (head < top_m_) AppendSolid(Prism(run.Part(std::max(at, from), to), head, top_m_), wall.body);
+      if (sill > base_m_) AppendSolid(Prism(run.Part(std::max(at, from), to), base_m_, sill), wall.body);
       at = std::max(at, to);
     }
-    if (run.end_m > at + kOff_m) AppendSolid(Prism(Part(run, at, run.end_m), base_m_, top_m_), wall.body);
+    if (run.end_m > at + kOff_m) AppendSolid(Prism(run.Part(at, run.end_m), base_m_, top_m_), wall.body);
     plan_.elements.push_back(std::move(wall));
     const auto index = static_cast<uint32_t>(plan_.elements.size() - 1);
     for (const uint32_t o : run.openings) AddOpening(run, o, index);
@@ -161,13 +174,14 @@ class StoreyBuilder {
     opening.wall = wall;
     opening.width_m = to - from;
     opening.height_m = head - sill;
-    opening.body = Prism(Part(run, from, to), sill, head);
+    opening.body = Prism(run.Part(from, to), sill, head);
     if (drawn.use != DrawnUse::kPassage) {
       PlanElement filling = NewElement(drawn.use == DrawnUse::kDoor ? ElementKind::kDoor : ElementKind::kWindow, drawn.location);
       if (drawn.use == DrawnUse::kWindow) {
         filling.material = Material::kGlass;
         const double middle = 0.5 * (run.left_m + run.right_m), half = 0.5 * kSymbolDepth_m;
-        filling.body = Prism({run.At(from, middle - half), run.At(to, middle - half), run.At(to, middle + half), run.At(from, middle + half)}, sill, head);
+        filling.body = Prism(
+            {run.At(from, middle - half), run.At(to, middle - half), run.At(to, middle + half), run.At(from, middle + half)}, sill, head);
       }
       opening.filling = static_cast<uint32_t>(plan_.elements.size());
       plan_.elements.push_back(std::move(filling));
@@ -213,7 +227,6 @@ class StoreyBuilder {
     wall.uncut = Extrude(area, {0, 0, top_m_ - base_m_});
     for (auto& v : wall.uncut.vertices) v.z() += base_m_;
     wall.body = wall.uncut;
-    if (source < drawing_.paths.size()) wall.arcs = drawing_.paths[source].arcs;
     if (!wall.uncut.empty()) plan_.elements.push_back(std::move(wall));
   }
 
@@ -260,10 +273,12 @@ class StoreyBuilder {
     const MassOptions& o = options_.mass;
     if (mass.single_lines) {
       sink_.Emit(DiagnosticKind::kSingleLineWalls, {},
-                 fmt::format("the walls are drawn as single lines, {:.0f} m of them; each is taken as a wall {:.2f} m thick", mass.single_m, o.single_line_thickness_m));
+                 fmt::format("the walls are drawn as single lines, {:.0f} m of them; each is taken as a wall {:.2f} m thick", mass.single_m,
+                             o.single_line_thickness_m));
     } else if (mass.single_m > o.min_single_m) {
       sink_.Emit(DiagnosticKind::kLinesWithoutPartner, {},
-                 fmt::format("{:.1f} m of lines have no parallel partner within {:.2f} m and are taken for no walls", mass.single_m, o.max_thickness_m));
+                 fmt::format("{:.1f} m of lines have no parallel partner within {:.2f} m and are taken for no walls", mass.single_m,
+                             o.max_thickness_m));
     }
   }
 
@@ -277,6 +292,7 @@ class StoreyBuilder {
   std::vector<DrawnOpening> openings_;
   std::vector<WallRun> runs_;
   std::map<std::string, int> guids_;
+  std::set<std::string> of_other_storeys_;
 };
 
 }  // namespace

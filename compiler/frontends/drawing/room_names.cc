@@ -1,29 +1,46 @@
 #include "compiler/frontends/drawing/room_names.h"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <string>
 #include <string_view>
 
 namespace plumb::compiler {
 namespace {
 
-constexpr size_t kMaxName = 60;       // bytes; longer texts are notes
+constexpr size_t kMaxName = 60;  // bytes; longer texts are notes
 constexpr size_t kMaxLines = 3;
 constexpr int kMaxWords = 3;          // texts with more are notes, where there are others
 constexpr double kSameHeight = 0.75;  // texts this much lower than the tallest are remarks to it
 
 bool IsLetter(char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0 || static_cast<unsigned char>(c) >= 0x80; }
 
-// "3.25 x 4.10", "12'-6\"", "14.3 m2", "+0.00": figures with nothing but units between them. A number alone, or one with a letter, names a room.
+// Units, and what stands before figures of heights, sizes and areas on plans in English, German, French, Italian and Spanish.
+constexpr auto kMeasureWords = std::to_array<std::string_view>(
+    {"m",  "mm", "cm", "qm",   "sqm",  "mq",   "sq",  "sf",  "sqft", "ft",  "in", "x",   "ch",  "clg", "lh",  "rh", "bh", "brh", "ok",
+     "uk", "ff", "rd", "okff", "okrd", "ukrd", "ukd", "ffb", "ffl",  "ngf", "nf", "nrf", "hsp", "hp",  "htl", "dn", "up", "el",  "lvl"});
+
+// "3.25 x 4.10", "12'-6\"", "14.3 m2", "+0.00", "BRH 0.90": figures with nothing but units and such words between them. A number alone,
+// or one with a letter, names a room.
 bool IsMeasure(std::string_view text) {
-  size_t digits = 0, marks = 0, longest_word = 0, word = 0;
-  for (const char c : text) {
+  size_t digits = 0, marks = 0, dashes = 0;
+  std::string word;
+  bool only_units = true, letters = false;  // a letter alone: "H 2.50", but not "B 12" or "B-12"
+  for (const char c : std::string(text) + ' ') {
     digits += std::isdigit(static_cast<unsigned char>(c)) != 0;
     marks += std::string_view("'\".,+-=/:*").find(c) != std::string_view::npos;
-    word = IsLetter(c) ? word + 1 : 0;
-    longest_word = std::max(longest_word, word);
+    dashes += c == '-';
+    if (std::isalpha(static_cast<unsigned char>(c)) != 0) {
+      word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    } else if (static_cast<unsigned char>(c) < 0x80 && !word.empty()) {  // beyond ASCII: the square of m, diameters
+      const bool unit = std::find(kMeasureWords.begin(), kMeasureWords.end(), word) != kMeasureWords.end();
+      letters = letters || (!unit && word.size() == 1);
+      only_units = only_units && (unit || word.size() == 1);
+      word.clear();
+    }
   }
-  return digits > 0 && longest_word <= 3 && (marks > 0 || text.find(' ') != std::string_view::npos);
+  return digits > 0 && only_units && (marks > (letters ? dashes : 0) || (!letters && text.find(' ') != std::string_view::npos));
 }
 
 template <class Good>

@@ -9,14 +9,18 @@
 namespace plumb::compiler {
 namespace {
 
-constexpr double kFacing = 0.9995;      // cosine between the two sides of a wall: 1.8 degrees
-constexpr double kSameLine = 0.9998;    // between two pieces of one
+constexpr double kFacing = 0.9995;    // cosine between the two sides of a wall: 1.8 degrees
+constexpr double kSameLine = 0.9998;  // between two pieces of one
 constexpr double kOff_m = 1e-3;
-constexpr double kAtJamb_m = 0.05;      // from the end of a run to the gap that it ends at
-constexpr double kJunction = 1.6;       // a crossing wall's thickness, in those of the thickest wall
+constexpr double kAtJamb_m = 0.05;  // from the end of a run to the gap that it ends at
+constexpr double kOffSide_m = 1e-5;
+constexpr double kSquare_m = 2e-3;  // corners are, if the sides end this close to each other
+constexpr double kJunction = 1.6;   // a crossing wall's thickness, in those of the thickest wall
 
 // Along the line x -> (cos, sin), the same for both directions of a wall.
-Eigen::Vector2d Canonical(const Eigen::Vector2d& d) { return d.x() < -1e-9 || (std::abs(d.x()) <= 1e-9 && d.y() < 0) ? Eigen::Vector2d(-d) : d; }
+Eigen::Vector2d Canonical(const Eigen::Vector2d& d) {
+  return d.x() < -1e-9 || (std::abs(d.x()) <= 1e-9 && d.y() < 0) ? Eigen::Vector2d(-d) : d;
+}
 
 class RunFinder {
  public:
@@ -28,7 +32,8 @@ class RunFinder {
     JoinStrips();
     std::vector<WallRun> runs = MergedRuns();
     // Longer walls take the corners.
-    std::stable_sort(runs.begin(), runs.end(), [](const WallRun& a, const WallRun& b) { return a.end_m - a.start_m > b.end_m - b.start_m; });
+    std::stable_sort(runs.begin(), runs.end(),
+                     [](const WallRun& a, const WallRun& b) { return a.end_m - a.start_m > b.end_m - b.start_m; });
     ExtendIntoCorners(runs);
     AssignOpenings(runs);
     return runs;
@@ -184,9 +189,26 @@ class RunFinder {
         const Eigen::Vector2d middle = run.At(s + sign * 0.5 * reach, 0.5 * (run.left_m + run.right_m));
         bool taken = false;
         tree.ForEachIn(Eigen::AlignedBox2d(middle), [&](uint32_t j) { taken = taken || (j != i && runs[j].Holds(middle, 0)); });
-        if (!taken) (at_end ? run.end_m : run.start_m) += sign * reach;
+        if (!taken) Extend(run, at_end, reach);
       }
     }
+  }
+
+  // Each side as far as there is wall beside it; both as far as the middle where the corner is square.
+  void Extend(WallRun& run, bool at_end, double reach_m) const {
+    double& end_m = at_end ? run.end_m : run.start_m;
+    const double sign = at_end ? 1 : -1;
+    const auto reach_at = [&](double t_m) {
+      const Eigen::Vector2d from = run.At(end_m + sign * kOffSide_m, t_m);
+      if (!outline_.InWall(from)) return 0.0;
+      const auto hit = outline_.Cast(from, sign * run.along, kJunction * options_.max_thickness_m);
+      return hit ? hit->t_m + kOffSide_m : reach_m;
+    };
+    const double right_m = reach_at(run.right_m + kOffSide_m), left_m = reach_at(run.left_m - kOffSide_m);
+    const bool square = std::abs(right_m - reach_m) < kSquare_m && std::abs(left_m - reach_m) < kSquare_m;
+    const double most_m = square ? reach_m : std::max(right_m, left_m);
+    end_m += sign * most_m;
+    if (!square) (at_end ? run.end_cut : run.start_cut) = {most_m - right_m, most_m - left_m};
   }
 
   void AssignOpenings(std::vector<WallRun>& runs) const {
@@ -240,11 +262,14 @@ class RunFinder {
 
 bool WallRun::Holds(const Eigen::Vector2d& p, double slack_m) const {
   const double s = S(p), t = T(p);
-  return s >= start_m - slack_m && s <= end_m + slack_m && t >= right_m - slack_m && t <= left_m + slack_m;
+  const double u = thickness_m() > 0 ? std::clamp((t - right_m) / thickness_m(), 0.0, 1.0) : 0;
+  const auto at = [u](const Cut& cut) { return cut.right_m + u * (cut.left_m - cut.right_m); };
+  return s >= start_m + at(start_cut) - slack_m && s <= end_m - at(end_cut) + slack_m && t >= right_m - slack_m && t <= left_m + slack_m;
 }
 
-std::vector<Eigen::Vector2d> WallRun::Corners() const {
-  return {At(start_m, right_m), At(end_m, right_m), At(end_m, left_m), At(start_m, left_m)};
+std::vector<Eigen::Vector2d> WallRun::Part(double from_m, double to_m) const {
+  return {At(std::max(from_m, start_m + start_cut.right_m), right_m), At(std::min(to_m, end_m - end_cut.right_m), right_m),
+          At(std::min(to_m, end_m - end_cut.left_m), left_m), At(std::max(from_m, start_m + start_cut.left_m), left_m)};
 }
 
 std::vector<WallRun> FindWallRuns(const Outline& outline, const std::vector<DrawnOpening>& openings, const RunOptions& options) {

@@ -9,10 +9,15 @@
 
 namespace plumb::compiler {
 
-// A rectangle: `along` from start_m to end_m, its left normal from right_m to left_m.
+// Between two parallel sides: `along` from start_m to end_m, its left normal from right_m to left_m. At corners that are not square one
+// side is shorter than the other.
 struct WallRun {
+  struct Cut {
+    double right_m = 0, left_m = 0;  // one of them is 0
+  };
   Eigen::Vector2d along = Eigen::Vector2d::UnitX();
   double start_m = 0, end_m = 0, right_m = 0, left_m = 0;
+  Cut start_cut, end_cut;  // by which a side ends before start_m or end_m
   uint32_t source = 0xffffffffu;  // a path that one of its sides is drawn by
   std::vector<uint32_t> openings;
   [[nodiscard]] Eigen::Vector2d At(double s, double t) const { return s * along + t * Eigen::Vector2d(-along.y(), along.x()); }
@@ -20,7 +25,9 @@ struct WallRun {
   [[nodiscard]] double T(const Eigen::Vector2d& p) const { return along.x() * p.y() - along.y() * p.x(); }
   [[nodiscard]] double thickness_m() const { return left_m - right_m; }
   [[nodiscard]] bool Holds(const Eigen::Vector2d& p, double slack_m) const;
-  [[nodiscard]] std::vector<Eigen::Vector2d> Corners() const;  // counter-clockwise
+  // Counter-clockwise; the whole run, or what of it is between two places along it.
+  [[nodiscard]] std::vector<Eigen::Vector2d> Corners() const { return Part(start_m, end_m); }
+  [[nodiscard]] std::vector<Eigen::Vector2d> Part(double from_m, double to_m) const;
 };
 
 struct RunOptions {

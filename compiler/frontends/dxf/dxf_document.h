@@ -66,7 +66,7 @@ struct DxfDocument {
 };
 
 struct DxfReadOptions {
-  double chord_share = 0.002;   // of a curve's radius, between it and its steps
+  double chord_share = 0.0006;  // of a curve's radius, between it and its steps
   size_t max_points = 20'000'000;
 };
 

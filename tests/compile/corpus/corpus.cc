@@ -18,7 +18,7 @@
 #include "compiler/passes/build_agraph.h"
 #include "compiler/passes/polygon.h"
 #include "compiler/source/source.h"
-#include "compiler/validate.h"
+#include "compiler/validate_graph.h"
 #include "tests/compile/corpus/truth.h"
 
 namespace plumb::corpus {

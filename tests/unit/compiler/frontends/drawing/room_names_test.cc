@@ -23,7 +23,12 @@ TEST(RoomNames, NumberAndNameAreJoinedFromTopToBottom) { EXPECT_EQ(NameOf({At(1,
 
 TEST(RoomNames, MeasuresAreNoNames) {
   EXPECT_EQ(NameOf({At(3, "Kitchen"), At(2, "3.25 x 4.10"), At(1, "13.3 m2"), At(0, "12'-6\"")}), "Kitchen");
-  EXPECT_EQ(NameOf({At(2, "+0.00")}), "");
+  for (const char* measure : {"+0.00", "BRH 0.90", "H = 2.50 m", "14.3 m\u00b2", "F: 12,40 m2", "3 m", "OKFF +3.20", "24 x 36"})
+    EXPECT_EQ(NameOf({At(2, measure)}), "") << measure;
+}
+
+TEST(RoomNames, ShortNamesWithNumbersAreNames) {
+  for (const char* name : {"WC", "G.5 WC", "U.3 Bad", "WC 1", "B 12", "B-12", "R0-3", "101 A", "EDV"}) EXPECT_EQ(NameOf({At(2, name)}), name) << name;
 }
 
 TEST(RoomNames, SizesOfDoorsAreNoNames) { EXPECT_EQ(NameOf({At(3, "BATH"), At(2, "2668"), At(1, "2468")}), "BATH"); }

@@ -1,0 +1,70 @@
+#include "compiler/frontends/drawing/plan_from_drawing.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+#include "compiler/passes/build_agraph.h"
+
+namespace plumb::compiler {
+namespace {
+
+void AddRing(const Ring& ring, const std::string& guid, Drawing& drawing) {
+  DrawnPath path;
+  path.points = ring;
+  path.points.push_back(ring.front());
+  path.closed = true;
+  path.role = LineRole::kWall;
+  path.location.guid = guid;
+  drawing.paths.push_back(path);
+}
+
+AGraph Compiled(PlanIr plan) {
+  DiagnosticSink sink;
+  std::optional<Built> built = BuildAGraph(plan, {}, sink);
+  EXPECT_TRUE(built.has_value());
+  return built ? std::move(built->graph) : AGraph();
+}
+
+// A room with an oblique corner that juts into it and one that does not: walls of 0.3 m between two outlines.
+TEST(AppendStorey, WallsEndAtObliqueCornersWhereTheDrawingHasThem) {
+  const Ring inner = {{0, 0}, {9, 0}, {9, 4}, {6.5, 6.5}, {6.5, 9}, {0, 9}};
+  const double c = 0.3 * std::tan(std::numbers::pi / 8);
+  const Ring outer = {{-0.3, -0.3}, {9.3, -0.3}, {9.3, 4 + c}, {6.8, 6.5 + c}, {6.8, 9.3}, {-0.3, 9.3}};
+  Drawing drawing;
+  AddRing(inner, "A", drawing);
+  AddRing(outer, "B", drawing);
+  PlanIr plan;
+  DiagnosticSink sink;
+  ASSERT_TRUE(AppendStorey(drawing, {{}, "Ground", {}, 0.0}, {}, plan, sink));
+  const AGraph graph = Compiled(plan);
+  ASSERT_EQ(graph.rooms.size(), 1u);
+  EXPECT_EQ(graph.rooms[0].polygon.size(), inner.size());
+  for (const auto& corner : inner) {
+    double nearest = 1e9;
+    for (const auto& p : graph.rooms[0].polygon) nearest = std::min(nearest, (p - corner).norm());
+    EXPECT_LT(nearest, 1e-3) << corner.transpose();
+  }
+}
+
+// Handles count from one in every file.
+TEST(AppendStorey, IdsOfOneStoreyAreNotThoseOfAnother) {
+  Drawing drawing;
+  AddRing({{0, 0}, {4, 0}, {4, 3}, {0, 3}}, "2F", drawing);
+  AddRing({{-0.2, -0.2}, {4.2, -0.2}, {4.2, 3.2}, {-0.2, 3.2}}, "30", drawing);
+  PlanIr plan;
+  DiagnosticSink sink;
+  ASSERT_TRUE(AppendStorey(drawing, {{}, "Ground", {}, 0.0}, {}, plan, sink));
+  ASSERT_TRUE(AppendStorey(drawing, {{}, "Upper", {}, 3.0}, {}, plan, sink));
+  std::set<std::string> ids;
+  for (const PlanElement& e : plan.elements) EXPECT_TRUE(ids.insert(e.guid).second) << e.guid;
+  EXPECT_TRUE(ids.contains("2F") || ids.contains("30"));
+  EXPECT_TRUE(ids.contains("Upper:2F") || ids.contains("Upper:30"));
+  EXPECT_EQ(Compiled(plan).walls.size(), 8u);
+}
+
+}  // namespace
+}  // namespace plumb::compiler

@@ -103,7 +103,7 @@ void WriteHuge(const std::string& name) {
 
 // The input is in the working folder afterwards. Its name; empty: there is none.
 std::string Provide(const std::string& code) {
-  for (const char* ending : {".ifc", ".ifc.gz", ".dxf", ".agraph", ".obj", ".ply", ".dae", ".sdf"}) {
+  for (const char* ending : {".ifc", ".ifc.gz", ".dxf", ".svg", ".agraph", ".obj", ".ply", ".dae", ".sdf"}) {
     const fs::path stored = kGoldens / (code + ending);
     if (!fs::exists(stored)) continue;
     fs::copy_file(stored, code + ending);
@@ -141,8 +141,8 @@ TEST_P(DiagnosticsGolden, SmallestInputGivesTheText) {
   ASSERT_FALSE(input.empty()) << "there is no " << code << ".ifc in " << kGoldens;
   ValidateOptions options;
   if (GetParam() == DiagnosticKind::kInternalError) options.compile.snap_radius_m = -1;  // as only a caller can
-  if (GetParam() == DiagnosticKind::kLayerRulesUnreadable) options.compile.dxf.layers = "germna";
-  if (GetParam() == DiagnosticKind::kSheetMissing) options.compile.dxf.sheet = 3;
+  if (GetParam() == DiagnosticKind::kLayerRulesUnreadable) options.compile.drawing.layers = "germna";
+  if (GetParam() == DiagnosticKind::kSheetMissing) options.compile.drawing.sheet = 3;
   const Report report = ValidateFile(input, options);
   std::vector<Diagnostic> found;
   std::copy_if(report.diagnostics.begin(), report.diagnostics.end(), std::back_inserter(found),

@@ -21,6 +21,7 @@ struct DrawnPath {
   bool filled = false;  // a hatch or a solid fill: its inside is material
   bool curved = false;  // the points are steps along a curve, not corners
   std::vector<Arc> arcs;       // the exact arcs among its sides
+  double stroke_m = 0;        // how thick the line is drawn; 0: no more than it must be to be seen
   uint32_t layer = 0;         // the source's, by number: what is drawn alike
   uint32_t symbol = 0xffffffffu;  // paths of one symbol (a block, a group) have the same number
   SourceLocation location;
@@ -35,9 +36,17 @@ struct DrawnText {
   SourceLocation location;
 };
 
+// A room that the source draws as such, whatever its walls.
+struct DrawnSpace {
+  std::string name;  // if no text in it names it
+  std::vector<Eigen::Vector2d> outline;
+  SourceLocation location;
+};
+
 struct Drawing {
   std::vector<DrawnPath> paths;
   std::vector<DrawnText> texts;
+  std::vector<DrawnSpace> spaces;
 };
 
 }  // namespace plumb::compiler

@@ -94,6 +94,19 @@ Expected<std::vector<std::string>> Patterns(const toml::table& rule, std::string
 
 }  // namespace
 
+LineRole RoleOf(LayerUse use) {
+  switch (use) {
+    case LayerUse::kWall: return LineRole::kWall;
+    case LayerUse::kColumn: return LineRole::kColumn;
+    case LayerUse::kDoor: return LineRole::kDoor;
+    case LayerUse::kWindow: return LineRole::kWindow;
+    case LayerUse::kOpening: return LineRole::kOpening;
+    default: return LineRole::kAny;
+  }
+}
+
+bool IsSymbolUse(LayerUse use) { return use == LayerUse::kDoor || use == LayerUse::kWindow || use == LayerUse::kOpening; }
+
 Expected<LayerRules> LayerRules::Parse(std::string_view text, const std::string& source) {
   const auto bad = [&](const std::string& what) { return Fail(ErrorCode::kBadOption, fmt::format("{}: {}", source, what)); };
   toml::table table;

@@ -13,6 +13,10 @@ namespace plumb::compiler {
 
 enum class LayerUse : uint8_t { kUnknown, kWall, kColumn, kDoor, kWindow, kOpening, kRoomName, kIgnore };
 
+[[nodiscard]] LineRole RoleOf(LayerUse use);  // kAny for uses that no line has
+// Of what stands in walls and is drawn as one symbol: doors, windows, openings.
+[[nodiscard]] bool IsSymbolUse(LayerUse use);
+
 // A set in TOML:
 //   name = "german"
 //   [[rule]]

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <set>
 
+#include "compiler/frontends/drawing/framed_doors.h"
 #include "compiler/frontends/drawing/opening_symbols.h"
 #include "compiler/frontends/drawing/plane.h"
 
@@ -66,6 +67,9 @@ class OpeningFinder {
     AddGaps();
     for (const uint32_t p : paths_) {
       if (!symbols_.IsUsed(p)) AddFromSymbol(p);
+    }
+    for (DrawnOpening& framed : FindFramedDoors(drawing_, outline_.mass())) {
+      if (!IsKnown(framed)) Keep(std::move(framed));
     }
     return std::move(out_);
   }
@@ -235,10 +239,19 @@ class OpeningFinder {
     return out;
   }
 
+  // The paths of its symbol that can lie in the wall: boxes if there are any, as swings and open leaves stand out of it.
+  std::vector<uint32_t> InWallPartsOf(uint32_t p) const {
+    std::vector<uint32_t> boxes;
+    for (const uint32_t q : symbols_.PathsWith(p)) {
+      if (drawing_.paths[q].closed && drawing_.paths[q].arcs.empty()) boxes.push_back(q);
+    }
+    return boxes.empty() ? symbols_.PathsWith(p) : boxes;
+  }
+
   // A window or a door without a swing whose box lies over a wall; its paths are looked at together.
   void AddOverWall(uint32_t p) {
     const DrawnPath& path = drawing_.paths[p];
-    const std::vector<uint32_t>& members = symbols_.PathsWith(p);
+    const std::vector<uint32_t> members = InWallPartsOf(p);
     Eigen::AlignedBox2d box;
     Eigen::Vector2d u = Eigen::Vector2d::Zero();
     for (const uint32_t q : members) {

@@ -87,6 +87,11 @@ std::vector<Drawing> SplitSheets(Drawing drawing, const SheetOptions& options) {
       out[i].texts.push_back(text);
       out[i].texts.back().at += shift;
     }
+    for (const DrawnSpace& space : drawing.spaces) {
+      if (!sheets[i].box.contains(BoxOf(space.outline).center())) continue;
+      out[i].spaces.push_back(space);
+      for (auto& q : out[i].spaces.back().outline) q += shift;
+    }
   }
   return out;
 }

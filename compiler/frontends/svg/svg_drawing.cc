@@ -58,6 +58,9 @@ class Converter {
       const LayerUse use = rules.UseOf(node.names[i]);
       if (use == LayerUse::kUnknown) continue;
       out.use = use;
+      // CubiCasa's "Door None": an opening without a door.
+      const auto is_none = [](const std::string& name) { return name == "None"; };
+      if (use == LayerUse::kDoor && std::any_of(node.names.begin(), node.names.end(), is_none)) out.use = LayerUse::kPassage;
       if (IsSymbolUse(use)) out.symbol = index;
       if (use == LayerUse::kRoomName) out.room_name = i + 1 < node.names.size() ? node.names[i + 1] : std::string();
       return out;

@@ -13,8 +13,8 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kStep_rad = kPi / 24;
-constexpr int kMaxSteps = 48;  // of one curve
+constexpr double kStep_rad = kPi / 48;  // keeps within 0.05 % of the radius
+constexpr int kMaxSteps = 96;  // of one curve
 
 double TurnBetween(const Vector2d& a, const Vector2d& b) {
   if (a.norm() <= 0 || b.norm() <= 0) return 0;
@@ -205,7 +205,7 @@ SvgOutline SvgRect(double x, double y, double width, double height, double rx, d
   }
   const Vector2d centers[] = {{x + width - rx, y + ry}, {x + width - rx, y + height - ry}, {x + rx, y + height - ry}, {x + rx, y + ry}};
   for (int corner = 0; corner < 4; ++corner) {
-    for (int i = 0; i <= 12; ++i) out.points.push_back(OnEllipse(centers[corner], {rx, ry}, 0, (corner - 1) * 0.5 * kPi + i * kStep_rad));
+    for (int i = 0; i <= 24; ++i) out.points.push_back(OnEllipse(centers[corner], {rx, ry}, 0, (corner - 1) * 0.5 * kPi + i * kStep_rad));
   }
   return out;
 }
@@ -213,7 +213,7 @@ SvgOutline SvgRect(double x, double y, double width, double height, double rx, d
 SvgOutline SvgEllipse(double cx, double cy, double rx, double ry) {
   SvgOutline out;
   out.closed = true;
-  for (int i = 0; i < 48; ++i) out.points.push_back(OnEllipse({cx, cy}, {rx, ry}, 0, i * kStep_rad));
+  for (int i = 0; i < 96; ++i) out.points.push_back(OnEllipse({cx, cy}, {rx, ry}, 0, i * kStep_rad));
   return out;
 }
 

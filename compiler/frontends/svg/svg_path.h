@@ -17,7 +17,7 @@ struct SvgPathData {
   bool faulty = false;  // it was read up to its first fault, as SVG asks for
 };
 
-// All commands of path data, M to Z and m to z, in user units. Curves have steps of at most 7.5 degrees. Stops, faulty, at `max_points`.
+// All commands of path data, M to Z and m to z, in user units. Curves have steps of at most 3.75 degrees. Stops, faulty, at `max_points`.
 [[nodiscard]] SvgPathData ParseSvgPath(std::string_view data, size_t max_points);
 
 [[nodiscard]] SvgOutline SvgRect(double x, double y, double width, double height, double rx, double ry);

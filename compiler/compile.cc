@@ -128,14 +128,24 @@ std::optional<PlanIr> ReadPlan(const std::string& path, const CompileOptions& op
   return plan;
 }
 
-// The solids are most of the memory and no longer needed: give it back before the file is put together. Places in the source stay.
-void ReleaseSolids(PlanIr& plan) {
-  for (PlanElement& element : plan.elements) element.body = element.uncut = {};
+void ReturnFreedMemory() {
+#ifdef __GLIBC__
+  malloc_trim(0);  // solids are small blocks, which free alone keeps
+#endif
+}
+
+// The solids are most of the memory: what the passes alone need is given back before the triangles are copied, the bodies before the file is
+// put together. Places in the source stay.
+void ReleaseSolidsOfPasses(PlanIr& plan) {
+  for (PlanElement& element : plan.elements) element.uncut = {};
   for (PlanOpening& opening : plan.openings) opening.body = {};
   for (PlanSpace& space : plan.spaces) space.body = {};
-#ifdef __GLIBC__
-  malloc_trim(0);  // they are small blocks, which free alone keeps
-#endif
+  ReturnFreedMemory();
+}
+
+void ReleaseBodies(PlanIr& plan) {
+  for (PlanElement& element : plan.elements) element.body = {};
+  ReturnFreedMemory();
 }
 
 // What checks of the graph know by GUID only is shown where it stands in the source.
@@ -159,8 +169,10 @@ std::optional<AGraph> Run(std::optional<PlanIr> plan, const CompileOptions& opti
   std::optional<Built> built = BuildAGraph(*plan, PassOptionsFrom(options), sink);
   if (!built) return std::nullopt;
   AGraph graph = std::move(built->graph);
+  built.reset();  // the maps of the floors
+  ReleaseSolidsOfPasses(*plan);
   EmitMesh(*plan, graph);
-  ReleaseSolids(*plan);
+  ReleaseBodies(*plan);
   MoveToPlanFrame(*plan, graph);
   ForecastAliases({}, graph);
   AddLocated(*plan, ValidateGraph(graph), sink);

@@ -108,7 +108,9 @@ void MendRoles(Drawing& drawing) {
     }
   }
   std::set<uint32_t> mixed;
-  for (const auto& [layer, lines] : long_lines) {
+  for (const auto& entry : long_lines) {
+    const uint32_t layer = entry.first;
+    const auto& lines = entry.second;
     std::vector<Eigen::AlignedBox2d> boxes;
     for (const MapLine& l : lines) {
       Eigen::AlignedBox2d box(l.a);

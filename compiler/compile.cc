@@ -1,6 +1,8 @@
 #include "compiler/compile.h"
 
 #include <fmt/format.h>
+
+#include <Eigen/Geometry>
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
@@ -26,6 +28,9 @@
 namespace plumb::compiler {
 namespace {
 
+constexpr double kLeastStorey_m = 1.8;  // from floor to floor
+constexpr double kWingOverlap_m = 1.0;  // of two wings of one storey: they share a wall at most
+
 PassOptions PassOptionsFrom(const CompileOptions& options) {
   PassOptions out;
   out.section_height_m = options.section_height_m;
@@ -40,10 +45,10 @@ PassOptions PassOptionsFrom(const CompileOptions& options) {
 // As they stand in the file: what the result depends on.
 std::vector<Option> Recorded(const CompileOptions& options) {
   std::vector<Option> out = {{"section_height_m", fmt::format("{}", options.section_height_m)},
-          {"snap_radius_m", fmt::format("{}", options.snap_radius_m)},
-          {"max_gap_m", fmt::format("{}", options.max_gap_m)},
-          {"divide_open_plans", options.divide_open_plans ? "true" : "false"},
-          {"min_room_area_m2", fmt::format("{}", options.min_room_area_m2)}};
+                             {"snap_radius_m", fmt::format("{}", options.snap_radius_m)},
+                             {"max_gap_m", fmt::format("{}", options.max_gap_m)},
+                             {"divide_open_plans", options.divide_open_plans ? "true" : "false"},
+                             {"min_room_area_m2", fmt::format("{}", options.min_room_area_m2)}};
   if (!options.up.empty()) out.push_back({"up", options.up});
   return out;
 }
@@ -73,15 +78,55 @@ bool IsDrawing(SourceFormat format) { return format == SourceFormat::kDxf || for
 bool AddDrawing(const Source& source, const StoreyDrawing& drawing, const DrawingFileOptions& options, PlanIr& plan, DiagnosticSink& sink) {
   const PlanStorey storey{{}, drawing.name, {}, drawing.elevation_m};
   if (!IsDrawing(source.format)) {
-    sink.Emit(DiagnosticKind::kUnknownFormat, {}, fmt::format("`{}` is {}; storeys are drawings in DXF or SVG", source.path, FormatName(source.format)));
+    sink.Emit(DiagnosticKind::kUnknownFormat, {},
+              fmt::format("`{}` is {}; storeys are drawings in DXF or SVG", source.path, FormatName(source.format)));
     return false;
   }
-  const bool read = source.format == SourceFormat::kSvg ? AppendSvg(source, storey, options, plan, sink) : AppendDxf(source, storey, options, plan, sink);
+  const bool read =
+      source.format == SourceFormat::kSvg ? AppendSvg(source, storey, options, plan, sink) : AppendDxf(source, storey, options, plan, sink);
   if (!read) return false;
   if (!plan.source_path.empty()) return true;
   plan.source_path = source.path;
   plan.source_format = SchemaName(source.format);
   plan.source_sha256 = source.sha256;
+  return true;
+}
+
+// What a plan has so far.
+struct PlanSize {
+  size_t storeys, elements, openings, spaces;
+};
+PlanSize SizeOf(const PlanIr& plan) { return {plan.storeys.size(), plan.elements.size(), plan.openings.size(), plan.spaces.size()}; }
+
+void StateFile(const PlanSize& from, const std::string& path, PlanIr& plan) {
+  const auto state = [&path](auto& items, size_t first) {
+    for (size_t i = first; i < items.size(); ++i) items[i].location.file = path;
+  };
+  state(plan.storeys, from.storeys);
+  state(plan.elements, from.elements);
+  state(plan.openings, from.openings);
+  state(plan.spaces, from.spaces);
+}
+
+// Storeys one over the other need room for a person between their floors; drawings of two wings may have the same height.
+bool LieApart(const PlanSize& last, const StoreyDrawing& storey, PlanIr& plan, DiagnosticSink& sink) {
+  Eigen::AlignedBox3d own;
+  for (size_t e = last.elements; e < plan.elements.size(); ++e) own.extend(Bounds(plan.elements[e].uncut));
+  for (size_t s = 0; s < last.storeys; ++s) {
+    if (storey.elevation_m - plan.storeys[s].elevation_m >= kLeastStorey_m) continue;
+    Eigen::AlignedBox3d other;
+    for (size_t e = 0; e < last.elements; ++e) {
+      if (plan.elements[e].storey == s) other.extend(Bounds(plan.elements[e].uncut));
+    }
+    if (own.isEmpty() || other.isEmpty() || !own.intersects(other)) continue;
+    const Eigen::Vector3d common = own.intersection(other).sizes();
+    if (common.head<2>().minCoeff() < kWingOverlap_m) continue;
+    sink.Emit(DiagnosticKind::kStoreysCollide, {},
+              fmt::format("the floors of `{}` and `{}` are {:.2f} m apart, and their drawings lie over each other", plan.storeys[s].name,
+                          storey.name, storey.elevation_m - plan.storeys[s].elevation_m),
+              "--storey NAME=FILE@ELEVATION takes the height of each floor, m");
+    return false;
+  }
   return true;
 }
 
@@ -91,11 +136,16 @@ std::optional<PlanIr> ReadDrawings(std::vector<StoreyDrawing> storeys, const Dra
   PlanIr plan;
   for (const StoreyDrawing& storey : storeys) {
     DiagnosticSink of_file;
+    const PlanSize before = SizeOf(plan);
     const std::optional<Source> source = LoadSource(storey.path, of_file);
-    const bool read = source && IsSupported(*source, of_file) && AddDrawing(*source, storey, options, plan, of_file);
-    for (const Diagnostic& d : of_file.all())
-      sink.Emit(d.kind, d.location, storeys.size() > 1 ? fmt::format("{}: {}", storey.name, d.message) : d.message, d.hint);
+    const bool read = source && IsSupported(*source, of_file) && AddDrawing(*source, storey, options, plan, of_file) &&
+                      LieApart(before, storey, plan, of_file);
+    for (Diagnostic d : of_file.all()) {
+      if (storeys.size() > 1) d.location.file = storey.path;
+      sink.Emit(d.kind, d.location, d.message, d.hint);
+    }
     if (!read) return std::nullopt;
+    if (storeys.size() > 1) StateFile(before, storey.path, plan);
   }
   ReportHeights(options.plan.heights, sink);
   return plan;
@@ -134,8 +184,8 @@ void ReturnFreedMemory() {
 #endif
 }
 
-// The solids are most of the memory: what the passes alone need is given back before the triangles are copied, the bodies before the file is
-// put together. Places in the source stay.
+// The solids are most of the memory: what the passes alone need is given back before the triangles are copied, the bodies before the file
+// is put together. Places in the source stay.
 void ReleaseSolidsOfPasses(PlanIr& plan) {
   for (PlanElement& element : plan.elements) element.uncut = {};
   for (PlanOpening& opening : plan.openings) opening.body = {};
@@ -177,8 +227,10 @@ std::optional<AGraph> Run(std::optional<PlanIr> plan, const CompileOptions& opti
   ForecastAliases({}, graph);
   AddLocated(*plan, ValidateGraph(graph), sink);
   std::vector<Option> recorded = Recorded(options);
-  if (plan->source_format == "DXF" || plan->source_format == "SVG") AddDrawingOptions(DrawingOptionsFrom(options), recorded);
-  else if (!options.unit.empty()) recorded.push_back({"unit", options.unit});
+  if (plan->source_format == "DXF" || plan->source_format == "SVG")
+    AddDrawingOptions(DrawingOptionsFrom(options), recorded);
+  else if (!options.unit.empty())
+    recorded.push_back({"unit", options.unit});
   EmitProvenance(*plan, recorded, sink, graph);
   return graph;
 }

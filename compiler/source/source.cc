@@ -72,7 +72,8 @@ const char* HintFor(SourceFormat format) {
   switch (format) {
     case SourceFormat::kDwg: return "save it as DXF in the CAD program, or convert it with `dwg2dxf` (LibreDWG) or the ODA File Converter";
     case SourceFormat::kZip: return "unpack the archive and give the plan in it";
-    default: return "export the plan as IFC (STEP, .ifc), DXF, SVG, or a mesh (OBJ, PLY, STL, glTF, COLLADA)";
+    case SourceFormat::kPicture: return "a picture has no lines: trace it as DXF or SVG, or export the drawing that it was made from";
+    default: return "export the plan as IFC (STEP, .ifc), DXF, SVG, a mesh (OBJ, PLY, STL, glTF, COLLADA) or a Gazebo world (SDF)";
   }
 }
 
@@ -95,6 +96,7 @@ SourceFormat DetectFormat(std::string_view bytes) {
   if (head.size() >= 6 && head.starts_with("AC10")) return SourceFormat::kDwg;
   if (head.starts_with("ply\n") || head.starts_with("ply\r")) return SourceFormat::kPly;
   if (head.starts_with("glTF")) return SourceFormat::kGltf;
+  if (head.starts_with("%PDF") || head.starts_with("\xFF\xD8\xFF") || head.starts_with("\x89PNG")) return SourceFormat::kPicture;
   if (LooksLikeDxf(head)) return SourceFormat::kDxf;
   if (head.starts_with("<")) return XmlFormat(bytes.substr(0, kXmlDetectionBytes));
   if (head.starts_with("{") && head.find("\"asset\"") != std::string_view::npos) return SourceFormat::kGltfJson;
@@ -118,6 +120,7 @@ std::string_view FormatName(SourceFormat format) {
     case SourceFormat::kStl: return "an STL mesh";
     case SourceFormat::kCollada: return "a COLLADA mesh";
     case SourceFormat::kSdf: return "a Gazebo world or model (SDF)";
+    case SourceFormat::kPicture: return "a picture or a document (PDF, JPEG, PNG)";
     case SourceFormat::kUnknown: break;
   }
   return "of no known format";

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <iterator>
 #include <memory>
 #include <vector>
@@ -16,6 +15,8 @@
 #include "schema/files.h"
 #include "tools/plumb/command.h"
 #include "tools/plumb/compile_limits.h"
+#include "tools/plumb/flag_names.h"
+#include "tools/plumb/outputs.h"
 
 namespace plumb::tools {
 namespace {
@@ -65,6 +66,8 @@ Expected<std::vector<compiler::StoreyDrawing>> StoreysOf(const CompileFlags& fla
   for (const std::string& text : flags.storeys) {
     Expected<compiler::StoreyDrawing> storey = ParseStorey(text);
     if (!storey) return tl::unexpected(storey.error());
+    const bool known = std::any_of(out.begin(), out.end(), [&](const auto& s) { return s.name == storey->name; });
+    if (known) return Fail(ErrorCode::kBadOption, fmt::format("--storey {}; there is a storey `{}` already", text, storey->name));
     out.push_back(std::move(*storey));
   }
   for (const std::string& plan : flags.plans) {
@@ -82,15 +85,13 @@ compiler::CompileResult CompileWithin(const CompileFlags& flags, const std::vect
 
 Status RunCompile(CompileFlags& flags, Session& session) {
   flags.plan = flags.plans.front();
-  if (const std::string wrong = flags.options.Check(); !wrong.empty()) return session.Fail({ErrorCode::kBadOption, wrong});
-  for (const std::string& plan : flags.plans) {
-    std::error_code error;
-    if (std::filesystem::equivalent(plan, flags.output, error)) {
-      return session.Fail({ErrorCode::kBadOption, fmt::format("--output {}; must not be the plan itself", flags.output)});
-    }
-  }
+  if (const std::string wrong = flags.options.Check(); !wrong.empty()) return session.Fail({ErrorCode::kBadOption, InFlags(wrong)});
   const auto storeys = StoreysOf(flags);
   if (!storeys) return session.Fail(storeys.error());
+  std::vector<std::string> inputs = flags.plans;
+  for (const compiler::StoreyDrawing& storey : *storeys) inputs.push_back(storey.path);
+  const auto apart = CheckOutputs({{"--output", flags.output}, {"--diagnostics-json", flags.diagnostics_json}}, inputs);
+  if (!apart) return session.Fail(apart.error());
   const compiler::CompileResult result = CompileWithin(flags, *storeys);
   const auto& diagnostics = result.diagnostics.all();
   Tell(flags, diagnostics, session.console);
@@ -137,6 +138,9 @@ void AddCompile(CLI::App& app, Session& session) {
                                 "  plumb compile house.ifc -o house.agraph\n"
                                 "  plumb compile house.ifc.gz -o house.agraph --diagnostics-json house.json\n"
                                 "  plumb compile flat.svg --scale 0.01 -o flat.agraph\n"
+                                "  plumb compile plan.dxf --layers german --unit cm -o plan.agraph\n"
+                                "  plumb compile site.stl --unit mm --up z -o site.agraph\n"
+                                "  plumb compile house.world --model-path ~/models -o house.agraph\n"
                                 "  plumb compile a.dxf b.svg --storey EG=a.dxf@0 --storey OG=b.svg@3.0 -o house.agraph\n"
                                 "Status 1: the A-Graph is written, but has errors in it: in a plan without walls no robot can localize, say.\n"
                                 "Status 2: nothing is written: the file is damaged, too large, of no schema that is read, or has no building in it.");

@@ -29,6 +29,9 @@ struct DrawingFileOptions {
 // Those that `options` name, else the built-in set that fits `layers` best, which is said. None: there are no such rules, and an error says so.
 [[nodiscard]] std::optional<LayerRules> RulesFor(const std::vector<LayerWeight>& layers, const DrawingFileOptions& options, DiagnosticSink& sink);
 
+// Says so if nothing in the drawing has usual sizes where its unit is `metres` long, as the options have it.
+void CheckGivenScale(double metres, const Drawing& drawing, DiagnosticSink& sink);
+
 void ScaleDrawing(double metres, Drawing& drawing);
 
 // Appends the storey of a drawing in metres, or its storeys if it has several sheets, to `plan`, the lowest one at `storey.elevation_m`.

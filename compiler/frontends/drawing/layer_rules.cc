@@ -131,11 +131,15 @@ Expected<LayerRules> LayerRules::Parse(std::string_view text, const std::string&
   for (const toml::node& node : *rules) {
     const toml::table* rule = node.as_table();
     if (rule == nullptr) return bad("a rule is a table");
+    for (const auto& [key, value] : *rule) {
+      if (key.str() != "use" && key.str() != "layers" && key.str() != "names")
+        return bad(fmt::format("unknown key `{}` of a rule; there are `use`, `layers` and `names`", key.str()));
+    }
     Rule entry;
     const std::string use = (*rule)["use"].value_or(std::string());
     const auto known = std::find_if(kUses.begin(), kUses.end(), [&](const auto& u) { return u.first == use; });
     if (known == kUses.end())
-      return bad(fmt::format("`use = \"{}\"`; must be wall, column, door, window, opening, room-name or ignore", use));
+      return bad(fmt::format("`use = \"{}\"`; must be wall, column, door, window, opening, passage, room-name or ignore", use));
     entry.use = known->second;
     auto words = Patterns(*rule, "layers", source), names = Patterns(*rule, "names", source);
     if (!words) return tl::unexpected(words.error());

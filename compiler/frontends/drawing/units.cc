@@ -104,6 +104,9 @@ DrawnSizes MeasureSizes(const Drawing& drawing) {
   const std::vector<Line> lines = LinesOf(drawing);
   Eigen::AlignedBox2d box;
   for (const Line& line : lines) box.extend(line.a).extend(line.a + line.length * line.u);
+  if (box.isEmpty()) {  // nothing but curves
+    for (const DrawnPath& path : drawing.paths) box.extend(BoxOf(path.points));
+  }
   if (box.isEmpty()) return out;
   out.extent = box.sizes().maxCoeff();
   std::vector<double> distances, radii, widths;

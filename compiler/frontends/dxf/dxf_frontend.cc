@@ -46,6 +46,7 @@ class Frontend {
     double metres = 1;
     if (const auto given = options_.GivenScale()) {
       metres = *given;
+      CheckGivenScale(metres, drawing, sink_);
     } else {
       const std::optional<LengthUnit> stated = StatedUnit(document);
       const UnitChoice choice = ChooseUnit(MeasureSizes(drawing), stated);

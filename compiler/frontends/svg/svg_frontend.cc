@@ -22,7 +22,10 @@ void ReportReading(const SvgDocument& document, DiagnosticSink& sink) {
 }
 
 double MetresOf(const SvgDocument& document, const Drawing& drawing, const DrawingFileOptions& options, DiagnosticSink& sink) {
-  if (const auto given = options.GivenScale()) return *given;
+  if (const auto given = options.GivenScale()) {
+    CheckGivenScale(*given, drawing, sink);
+    return *given;
+  }
   const ScaleChoice choice = ChooseScale(MeasureSizes(drawing), document.unit_on_paper_m, RatiosIn(drawing));
   if (choice.origin == ScaleChoice::Origin::kSizes) {
     const bool stated = document.unit_on_paper_m.has_value();

@@ -42,5 +42,17 @@ TEST(RatiosIn, ReadsThemInTexts) {
   EXPECT_EQ(RatiosIn(drawing), (std::vector<double>{100, 50}));
 }
 
+// A round hall in circles: nothing tells of walls or doors, so that the page is to be believed.
+TEST(SvgScale, AStatedUnitStaysWhereNothingSpeaksAgainstIt) {
+  const ScaleChoice none = ChooseScale({}, 0.01, {}, {});
+  EXPECT_EQ(none.origin, ScaleChoice::Origin::kStated);
+  EXPECT_EQ(none.metres, 0.01);
+  DrawnSizes hall;
+  hall.extent = 640;
+  const ScaleChoice choice = ChooseScale(hall, 0.01, {}, {});
+  EXPECT_EQ(choice.origin, ScaleChoice::Origin::kStated);
+  EXPECT_EQ(choice.metres, 0.01);
+}
+
 }  // namespace
 }  // namespace plumb::compiler

@@ -224,7 +224,8 @@ class Validator {
     for (size_t w = 0; w < graph_.walls.size(); ++w) {
       if (!seen[w])
         Emit(DiagnosticKind::kWallWithoutSurfaces, graph_.walls[w].guid,
-             fmt::format("wall {} `{}` bounds no room and no outside", w, graph_.walls[w].name));
+             fmt::format("wall {} bounds no room and no outside",
+                         graph_.walls[w].name.empty() ? fmt::format("{}", w) : fmt::format("{} `{}`", w, graph_.walls[w].name)));
     }
   }
 

@@ -173,6 +173,10 @@ Expected<void> BridgeGaps(const BridgeOptions& options, const PlanarMapOptions& 
 
 void ReportBridges(const PlanIr& plan, const FloorIr& floors, DiagnosticSink& sink) {
   constexpr double kSameGap_m = 1.0;  // the corners of a wall's end are closer together
+  const auto named = [](const PlanElement& e) {
+    const std::string name = e.location.ToString();
+    return name.empty() ? std::string("a wall") : name;
+  };
   for (const Floor& floor : floors.floors) {
     std::map<std::pair<uint32_t, uint32_t>, std::vector<Eigen::Vector2d>> reported;
     for (const Bridge& b : floor.bridges) {
@@ -184,8 +188,7 @@ void ReportBridges(const PlanIr& plan, const FloorIr& floors, DiagnosticSink& si
                         &second = plan.elements[floor.footprints[b.footprint_b].element];
       sink.Emit(DiagnosticKind::kGapBridged, first.location,
                 fmt::format("{} ends {:.3f} m from {} at ({:.2f}, {:.2f}); nobody passes there, so that they are taken to meet",
-                            first.location.ToString(), (b.to - b.from).norm(), second.location.ToString(), at.x() + plan.origin.x(),
-                            at.y() + plan.origin.y()));
+                            named(first), (b.to - b.from).norm(), named(second), at.x() + plan.origin.x(), at.y() + plan.origin.y()));
     }
   }
 }

@@ -84,7 +84,8 @@ class SurfaceBuilder {
     const std::vector<Arc>& arcs = ArcsOf(wall);
     for (size_t i = 0; i < arcs.size(); ++i) {
       const auto off = [&](const Eigen::Vector2d& p) { return std::abs((p - arcs[i].center).norm() - arcs[i].radius_m); };
-      if (off(a) <= options_.arc_m && off(b) <= options_.arc_m) return i + 1;
+      // A chord has its ends on the circle as well.
+      if (off(a) <= options_.arc_m && off(b) <= options_.arc_m && off(0.5 * (a + b)) <= options_.facet_m) return i + 1;
     }
     return 0;
   }
@@ -225,6 +226,7 @@ bool Opposite(const Wall& wall, const Surface& a, const Surface& b) {
 std::string SurfaceOptions::Check() const {
   if (!(collinear_m > 0)) return fmt::format("SurfaceOptions.collinear_m = {}; must be positive", collinear_m);
   if (!(arc_m > 0)) return fmt::format("SurfaceOptions.arc_m = {}; must be positive", arc_m);
+  if (!(facet_m > 0)) return fmt::format("SurfaceOptions.facet_m = {}; must be positive", facet_m);
   if (!(min_length_m > 0)) return fmt::format("SurfaceOptions.min_length_m = {}; must be positive", min_length_m);
   if (!(crack_m > 0)) return fmt::format("SurfaceOptions.crack_m = {}; must be positive", crack_m);
   if (!(min_external_m > 0)) return fmt::format("SurfaceOptions.min_external_m = {}; must be positive", min_external_m);

@@ -9,6 +9,7 @@ namespace plumb::compiler {
 struct SurfaceOptions {
   double collinear_m = 0.0015;  // edges of one wall this close to one line are one surface
   double arc_m = 0.003;         // corners this close to an arc of its wall lie on it
+  double facet_m = 0.02;        // ... and their middles that close to it
   double min_length_m = 0.02;   // shorter ones are leftovers of joints
   double crack_m = 0.01;        // sides with less free space than this before them are none
   double min_external_m = 0.3;  // a wall with at least this much of a side to the outside is external

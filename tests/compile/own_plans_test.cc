@@ -46,6 +46,7 @@ void ExpectSame(const AGraph& reference, const AGraph& other, const test::SamePl
 test::SamePlanOptions MeshOptions() {
   test::SamePlanOptions out;
   out.names = out.leaves = false;
+  out.heights = true;
   return out;
 }
 

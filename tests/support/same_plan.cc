@@ -108,7 +108,13 @@ class Comparison {
       }
       if (!room_of_a_[i].valid()) {
         Say("no room `{}` of {:.3f} m2 at ({:.3f}, {:.3f})", r.name, r.area_m2, r.center.x(), r.center.y());
-      } else if (options_.names && b_.rooms[room_of_a_[i].index()].name != r.name) {
+        continue;
+      }
+      const Room& same = b_.rooms[room_of_a_[i].index()];
+      if (options_.heights && std::abs(same.floor_z_m - r.floor_z_m) + std::abs(same.ceiling_z_m - r.ceiling_z_m) > options_.tolerance_m)
+        Say("room `{}` from {:.3f} m to {:.3f} m is from {:.3f} m to {:.3f} m", r.name, r.floor_z_m, r.ceiling_z_m, same.floor_z_m,
+            same.ceiling_z_m);
+      if (options_.names && b_.rooms[room_of_a_[i].index()].name != r.name) {
         Say("room `{}` is `{}`", r.name, b_.rooms[room_of_a_[i].index()].name);
       }
     }

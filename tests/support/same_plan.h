@@ -14,6 +14,7 @@ struct SamePlanOptions {
   double tolerance_m = 0.01;
   bool names = true;   // of rooms
   bool leaves = true;  // whether doorways have a leaf
+  bool heights = false;  // of floors and ceilings, which drawings do not have
 };
 
 // Differences, one sentence each; none: the same plan. Rooms by center and area, doorways and windows by position and width, doorways also

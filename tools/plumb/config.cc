@@ -62,9 +62,15 @@ Expected<void> AddFlags(const toml::table& table, const std::string& path, const
     if (node.is_table()) continue;
     const size_t line = node.source().begin.line;
     if (std::find(names.begin(), names.end(), key) == names.end()) return tl::unexpected(UnknownKey(path, key, line, subcommand));
-    const auto value = ValueText(node);
-    if (!value) return Fail(ErrorCode::kBadOption, fmt::format("`{}:{}`: `{}` is neither a number, nor text, nor true or false", path, line, key));
-    flags.push_back(fmt::format("--{}={}", key, *value));
+    // An array is an option that is given several times.
+    const toml::array* list = node.as_array();
+    for (size_t i = 0; i < (list != nullptr ? list->size() : 1); ++i) {
+      const auto value = ValueText(list != nullptr ? *list->get(i) : node);
+      if (!value)
+        return Fail(ErrorCode::kBadOption,
+                    fmt::format("`{}:{}`: `{}` is neither a number, nor text, nor true or false, nor a list of them", path, line, key));
+      flags.push_back(fmt::format("--{}={}", key, *value));
+    }
   }
   return {};
 }
@@ -75,7 +81,8 @@ std::string UnknownTable(const std::string& path, const std::string& name, size_
   return near.empty() ? message : message + fmt::format("; did you mean `{}`?", near);
 }
 
-Expected<std::vector<std::string>> FlagsOf(const toml::table& root, const std::string& path, const CLI::App& app, const CLI::App& subcommand) {
+Expected<std::vector<std::string>> FlagsOf(const toml::table& root, const std::string& path, const CLI::App& app,
+                                           const CLI::App& subcommand) {
   const std::vector<std::string> subcommands = SubcommandNames(app);
   std::vector<std::string> flags;
   if (const auto added = AddFlags(root, path, subcommand, flags); !added) return tl::unexpected(added.error());
@@ -92,18 +99,6 @@ Expected<std::vector<std::string>> FlagsOf(const toml::table& root, const std::s
   return flags;
 }
 
-// As text; empty where it has no value.
-std::string ValueOf(const CLI::Option& option) {
-  std::string value = option.count() > 0 ? option.results().back() : option.get_default_str();
-  if (option.get_expected_max() == 0) return value.empty() || value == "false" ? "false" : "true";
-  return value;
-}
-
-bool IsBare(const CLI::Option& option) {
-  const std::string type = option.get_type_name();
-  return option.get_expected_max() == 0 || type.starts_with("INT") || type.starts_with("UINT") || type.starts_with("FLOAT");
-}
-
 // A TOML basic string.
 std::string Quoted(const std::string& text) {
   std::string out = "\"";
@@ -116,6 +111,26 @@ std::string Quoted(const std::string& text) {
     }
   }
   return out + '"';
+}
+
+bool IsList(const CLI::Option& option) { return option.get_items_expected_max() > 1; }
+
+// As text; empty where it has no value.
+std::string ValueOf(const CLI::Option& option) {
+  if (IsList(option)) {
+    std::string out;
+    for (const std::string& item : option.count() > 0 ? option.results() : std::vector<std::string>())
+      out += (out.empty() ? "" : ", ") + Quoted(item);
+    return out;
+  }
+  std::string value = option.count() > 0 ? option.results().back() : option.get_default_str();
+  if (option.get_expected_max() == 0) return value.empty() || value == "false" ? "false" : "true";
+  return value;
+}
+
+bool IsBare(const CLI::Option& option) {
+  const std::string type = option.get_type_name();
+  return option.get_expected_max() == 0 || type.starts_with("INT") || type.starts_with("UINT") || type.starts_with("FLOAT");
 }
 
 }  // namespace
@@ -146,7 +161,10 @@ std::string ConfigToToml(const CLI::App& subcommand) {
     if (!IsConfigurable(*option)) continue;
     const std::string value = ValueOf(*option);
     // An option without a value is shown, but not set.
-    out += fmt::format("{}{} = {}\n", value.empty() ? "# " : "", option->get_lnames().front(), IsBare(*option) ? value : Quoted(value));
+    out += fmt::format("{}{} = {}\n", value.empty() ? "# " : "", option->get_lnames().front(),
+                       IsList(*option)   ? "[" + value + "]"
+                       : IsBare(*option) ? value
+                                         : Quoted(value));
   }
   return out;
 }

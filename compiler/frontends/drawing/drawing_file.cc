@@ -107,7 +107,7 @@ std::optional<LayerRules> RulesFor(const std::vector<LayerWeight>& layers, const
 
 void CheckGivenScale(double metres, const Drawing& drawing, DiagnosticSink& sink) {
   const DrawnSizes sizes = MeasureSizes(drawing);
-  if (sizes.extent == 0 || SizesHold(sizes, metres)) return;
+  if (sizes.extent == 0 || SizesHold(FirmSizes(sizes, metres), metres)) return;
   sink.Emit(DiagnosticKind::kUnitContradicted, {},
             fmt::format("the unit is given as {:.4g} m, but {}; it is taken as given", metres,
                         DescribeSizes(sizes, {fmt::format("units of {:.4g} m", metres), metres})),

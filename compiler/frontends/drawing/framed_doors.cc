@@ -13,7 +13,7 @@ namespace {
 constexpr double kTurn = 0.3, kSquare = 0.15;  // sine of a corner, cosine of a right angle
 constexpr double kAlike = 0.3;                 // of a length
 constexpr double kJog_m = 0.015;
-constexpr size_t kMaxCorners = 64;             // around a face
+constexpr size_t kMaxCorners = 64;  // around a face
 
 using Quad = std::array<Eigen::Vector2d, 4>;
 
@@ -27,7 +27,8 @@ std::optional<Quad> QuadOf(std::vector<Eigen::Vector2d> ring) {
   if (coarse.size() > 1 && (coarse.front() - coarse.back()).norm() <= kJog_m) coarse.pop_back();
   std::vector<Eigen::Vector2d> corners;
   for (size_t i = 0; i < coarse.size(); ++i) {
-    const Eigen::Vector2d in = coarse[i] - coarse[(i + coarse.size() - 1) % coarse.size()], out = coarse[(i + 1) % coarse.size()] - coarse[i];
+    const Eigen::Vector2d in = coarse[i] - coarse[(i + coarse.size() - 1) % coarse.size()],
+                          out = coarse[(i + 1) % coarse.size()] - coarse[i];
     if (std::abs(Cross(in.normalized(), out.normalized())) > kTurn) corners.push_back(coarse[i]);
   }
   if (corners.size() != 4) return std::nullopt;
@@ -36,10 +37,12 @@ std::optional<Quad> QuadOf(std::vector<Eigen::Vector2d> ring) {
 
 class Finder {
  public:
-  Finder(const Drawing& drawing, const WallMass& mass, const FramedDoorOptions& options) : drawing_(drawing), mass_(mass), map_(mass.map), options_(options) {}
+  Finder(const Drawing& drawing, const WallMass& mass, const FramedDoorOptions& options)
+      : drawing_(drawing), mass_(mass), map_(mass.map), options_(options) {}
 
   std::vector<DrawnOpening> Run() {
     std::vector<DrawnOpening> out;
+    if (mass_.single_lines) return out;  // no line has two sides that a frame could stand between
     for (uint32_t f = 1; f < map_.num_faces(); ++f) {
       if (!mass_.is_wall[f] || map_.LoopsOf(f).size() != 1 || map_.AreaOf(f) > options_.max_width_m) continue;
       const std::optional<Quad> q = QuadOf(map_.RingAt(map_.LoopsOf(f)[0]));
@@ -58,19 +61,38 @@ class Finder {
     return map_.FaceAt(0.5 * (a + b) - options_.beyond_m * Perp(b - a).normalized());
   }
 
-  bool IsFrame(uint32_t face, double depth_m) const {
-    if (!mass_.is_wall[face] || map_.LoopsOf(face).size() != 1) return false;
+  // `across`: through the wall.
+  bool IsFrame(uint32_t face, double depth_m, const Eigen::Vector2d& across) const {
+    if (!mass_.is_wall[face] || map_.LoopsOf(face).size() != 1 || !IsDrawnAsOne(face, depth_m, across)) return false;
     const double width = LesserSide(map_.RingAt(map_.LoopsOf(face)[0]));
-    return width >= options_.min_frame_m && width <= options_.max_frame_m && std::abs(map_.AreaOf(face) / width - depth_m) < kAlike * depth_m;
+    return width >= options_.min_frame_m && width <= options_.max_frame_m &&
+           std::abs(map_.AreaOf(face) / width - depth_m) < kAlike * depth_m;
+  }
+
+  // The lines through the wall are a frame's own: those of a wall that crosses here go on beyond.
+  bool IsDrawnAsOne(uint32_t face, double depth_m, const Eigen::Vector2d& across) const {
+    const uint32_t start = map_.LoopsOf(face)[0];
+    uint32_t h = start;
+    do {
+      const Eigen::Vector2d d = (map_.ToPoint(h) - map_.FromPoint(h)).normalized();
+      const uint32_t source = map_.edges()[h / 2].source;
+      if (std::abs(d.dot(across)) > 1 - kSquare && source < drawing_.paths.size()) {
+        if (BoxOf(drawing_.paths[source].points).sizes().maxCoeff() > depth_m + 2 * options_.max_frame_m) return false;
+      }
+      h = map_.Next(h);
+    } while (h != start);
+    return true;
   }
 
   // Its ends, 0 to 1 and 2 to 3, are at frames, its other sides at free space.
   bool IsDoor(const Quad& q) const {
     const double depth = (q[1] - q[0]).norm(), width = (q[2] - q[1]).norm();
-    if (width < options_.min_width_m || width > options_.max_width_m || std::abs(depth - (q[3] - q[2]).norm()) > kAlike * depth) return false;
+    if (width < options_.min_width_m || width > options_.max_width_m || std::abs(depth - (q[3] - q[2]).norm()) > kAlike * depth)
+      return false;
     if (std::abs((q[1] - q[0]).normalized().dot((q[2] - q[1]).normalized())) > kSquare) return false;
-    return IsFrame(FaceBeyond(q[0], q[1]), depth) && IsFrame(FaceBeyond(q[2], q[3]), depth) && !mass_.is_wall[FaceBeyond(q[1], q[2])] &&
-           !mass_.is_wall[FaceBeyond(q[3], q[0])];
+    const Eigen::Vector2d across = (q[1] - q[0]).normalized();
+    return IsFrame(FaceBeyond(q[0], q[1]), depth, across) && IsFrame(FaceBeyond(q[2], q[3]), depth, across) &&
+           !mass_.is_wall[FaceBeyond(q[1], q[2])] && !mass_.is_wall[FaceBeyond(q[3], q[0])];
   }
 
   DrawnOpening OpeningOf(uint32_t face, const Quad& q) const {

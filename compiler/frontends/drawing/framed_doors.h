@@ -15,6 +15,7 @@ struct FramedDoorOptions {
 
 // In the order of the map's faces. A piece of wall between two frames, with free space on both sides and nothing drawn in it: a window has
 // its sill or pane there.
-[[nodiscard]] std::vector<DrawnOpening> FindFramedDoors(const Drawing& drawing, const WallMass& mass, const FramedDoorOptions& options = {});
+[[nodiscard]] std::vector<DrawnOpening> FindFramedDoors(const Drawing& drawing, const WallMass& mass,
+                                                        const FramedDoorOptions& options = {});
 
 }  // namespace plumb::compiler

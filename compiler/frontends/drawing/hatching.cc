@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "compiler/frontends/drawing/plane.h"
@@ -10,7 +11,9 @@ namespace plumb::compiler {
 namespace {
 
 constexpr double kParallel_rad = 0.01;
-constexpr double kLeast = 1e-4;   // of the extent, between two lines
+constexpr double kLeast = 1e-4;  // of the extent, between two lines
+constexpr double kSquare_rad = 0.09;
+constexpr size_t kGrainBins = 91;  // one of them in the middle, for lines along the axes
 constexpr size_t kMaxLook = 2000;  // lines at most that are tried as a line's neighbour
 
 struct Line {
@@ -23,7 +26,7 @@ std::vector<Line> LinesOf(const Drawing& drawing) {
   std::vector<Line> out;
   for (uint32_t p = 0; p < drawing.paths.size(); ++p) {
     const DrawnPath& path = drawing.paths[p];
-    if (path.points.size() != 2) continue;
+    if (path.points.size() != 2 || path.role == LineRole::kWall || path.role == LineRole::kColumn) continue;
     const Eigen::Vector2d d = path.points[1] - path.points[0];
     if (d.norm() <= 0) continue;
     double angle = std::atan2(d.y(), d.x());
@@ -31,32 +34,60 @@ std::vector<Line> LinesOf(const Drawing& drawing) {
     if (angle >= std::numbers::pi - kParallel_rad) angle -= std::numbers::pi;
     out.push_back({angle, 0, 0, 0, p, path.layer});
   }
-  std::stable_sort(out.begin(), out.end(), [](const Line& a, const Line& b) { return a.layer != b.layer ? a.layer < b.layer : a.angle_rad < b.angle_rad; });
+  std::stable_sort(out.begin(), out.end(),
+                   [](const Line& a, const Line& b) { return a.layer != b.layer ? a.layer < b.layer : a.angle_rad < b.angle_rad; });
   return out;
 }
 
 class HatchingFinder {
  public:
-  HatchingFinder(const Drawing& drawing, const HatchingOptions& options) : drawing_(drawing), options_(options), hatch_(drawing.paths.size(), false) {
+  HatchingFinder(const Drawing& drawing, const HatchingOptions& options)
+      : drawing_(drawing), options_(options), hatch_(drawing.paths.size(), false) {
     Eigen::AlignedBox2d box;
     for (const DrawnPath& path : drawing.paths) box.extend(BoxOf(path.points));
     extent_ = box.isEmpty() ? 0 : box.sizes().maxCoeff();
+    FindGrain();
   }
 
   std::vector<bool> Run() {
     std::vector<Line> lines = LinesOf(drawing_);
+    std::map<uint32_t, size_t> of_pen;
+    for (const DrawnPath& path : drawing_.paths) of_pen[path.layer] += path.points.size() - 1;
     for (size_t first = 0; first < lines.size();) {
       size_t last = first + 1;
-      while (last < lines.size() && lines[last].layer == lines[first].layer && lines[last].angle_rad - lines[last - 1].angle_rad < kParallel_rad &&
+      while (last < lines.size() && lines[last].layer == lines[first].layer &&
+             lines[last].angle_rad - lines[last - 1].angle_rad < kParallel_rad &&
              lines[last].angle_rad - lines[first].angle_rad < 4 * kParallel_rad)
         ++last;
-      if (last - first >= options_.min_lines) MarkIn({lines.begin() + static_cast<std::ptrdiff_t>(first), lines.begin() + static_cast<std::ptrdiff_t>(last)});
+      const double share = static_cast<double>(last - first) / static_cast<double>(std::max<size_t>(1, of_pen[lines[first].layer]));
+      spacing_ = options_.max_spacing_share * extent_;
+      if (options_.max_spacing_m > 0 && share < options_.own_pen_share && IsSquare(lines[first].angle_rad))
+        spacing_ = std::min(spacing_, options_.max_spacing_m);
+      if (last - first >= options_.min_lines)
+        MarkIn({lines.begin() + static_cast<std::ptrdiff_t>(first), lines.begin() + static_cast<std::ptrdiff_t>(last)});
       first = last;
     }
     return std::move(hatch_);
   }
 
  private:
+  // Along or across most of what is drawn.
+  bool IsSquare(double angle_rad) const { return std::abs(std::remainder(angle_rad - grain_rad_, std::numbers::pi / 2)) < kSquare_rad; }
+
+  // The direction, up to quarter turns, that most lines but single ones have: outlines are those of walls.
+  void FindGrain() {
+    std::vector<double> length(kGrainBins, 0);
+    for (const DrawnPath& path : drawing_.paths) {
+      for (size_t i = 0; path.points.size() > 2 && i + 1 < path.points.size(); ++i) {
+        const Eigen::Vector2d d = path.points[i + 1] - path.points[i];
+        const double turn = std::remainder(std::atan2(d.y(), d.x()), std::numbers::pi / 2) / (std::numbers::pi / 2) + 0.5;
+        length[std::min(kGrainBins - 1, static_cast<size_t>(turn * kGrainBins))] += d.norm();
+      }
+    }
+    const auto most = std::max_element(length.begin(), length.end()) - length.begin();
+    if (length[static_cast<size_t>(most)] > 0) grain_rad_ = ((static_cast<double>(most) + 0.5) / kGrainBins - 0.5) * std::numbers::pi / 2;
+  }
+
   // All of about one direction.
   void MarkIn(std::vector<Line> lines) {
     const double angle = lines[lines.size() / 2].angle_rad;
@@ -94,9 +125,10 @@ class HatchingFinder {
     for (size_t j = i + 1; j < std::min(lines.size(), i + kMaxLook); ++j) {
       const Line& b = lines[j];
       const double step = b.offset - a.offset;
-      if (step > options_.max_spacing_share * extent_) break;
+      if (step > spacing_) break;
       const double overlap = std::min(a.to, b.to) - std::max(a.from, b.from);
-      if (step > kLeast * extent_ && overlap > options_.min_overlap * std::min(a.to - a.from, b.to - b.from)) return static_cast<uint32_t>(j);
+      if (step > kLeast * extent_ && overlap > options_.min_overlap * std::min(a.to - a.from, b.to - b.from))
+        return static_cast<uint32_t>(j);
     }
     return kNone;
   }
@@ -105,6 +137,8 @@ class HatchingFinder {
   const HatchingOptions& options_;
   std::vector<bool> hatch_;  // by path
   double extent_ = 0;
+  double grain_rad_ = 0;
+  double spacing_ = 0;  // the greatest between two lines of a hatching
 };
 
 }  // namespace

@@ -20,12 +20,19 @@ struct KnownUnit {
   bool usual;  // in which buildings are drawn
 };
 
-constexpr std::array<KnownUnit, 8> kUnits = {{{"mm", 1e-3, true}, {"cm", 1e-2, true}, {"dm", 0.1, false}, {"m", 1.0, true},
-                                              {"km", 1e3, false}, {"in", 0.0254, true}, {"ft", 0.3048, true}, {"yd", 0.9144, false}}};
+constexpr std::array<KnownUnit, 8> kUnits = {{{"mm", 1e-3, true},
+                                              {"cm", 1e-2, true},
+                                              {"dm", 0.1, false},
+                                              {"m", 1.0, true},
+                                              {"km", 1e3, false},
+                                              {"in", 0.0254, true},
+                                              {"ft", 0.3048, true},
+                                              {"yd", 0.9144, false}}};
 constexpr size_t kSamples = 400;
 constexpr double kParallel = 1e-3;
 constexpr double kContradiction = 1.5;  // of misfits: sizes wrong by more than a factor of four
 constexpr double kMinPlan_m = 2, kMaxPlan_m = 3000;
+constexpr double kLargestPaper_m = 4;
 
 struct Line {
   Eigen::Vector2d a, u;
@@ -92,6 +99,12 @@ bool SizesHold(const DrawnSizes& sizes, double metres, const UnitOptions& option
   return extent && within(sizes.wall, options.min_wall_m, options.max_wall_m) && within(sizes.door, options.min_door_m, options.max_door_m);
 }
 
+DrawnSizes FirmSizes(const DrawnSizes& sizes, double metres) {
+  DrawnSizes out = sizes;
+  if (sizes.door > 0 || sizes.extent * metres > kLargestPaper_m) out.wall = 0;
+  return out;
+}
+
 std::string DescribeSizes(const DrawnSizes& sizes, const LengthUnit& unit) {
   std::string out = fmt::format("in {} the plan is {:.3g} m long", unit.name, sizes.extent * unit.metres);
   if (sizes.wall > 0) out += fmt::format(", walls {:.2g} m thick", sizes.wall * unit.metres);
@@ -128,7 +141,8 @@ DrawnSizes MeasureSizes(const Drawing& drawing) {
 }
 
 UnitChoice ChooseUnit(const DrawnSizes& sizes, const std::optional<LengthUnit>& stated, const UnitOptions& options) {
-  if (stated && (sizes.extent == 0 || SizesHold(sizes, stated->metres, options))) return {*stated, true, DescribeSizes(sizes, *stated)};
+  if (stated && (sizes.extent == 0 || SizesHold(FirmSizes(sizes, stated->metres), stated->metres, options)))
+    return {*stated, true, DescribeSizes(sizes, *stated)};
   UnitChoice best;
   double best_misfit = std::numeric_limits<double>::infinity();
   for (const KnownUnit& unit : kUnits) {
@@ -138,7 +152,8 @@ UnitChoice ChooseUnit(const DrawnSizes& sizes, const std::optional<LengthUnit>& 
     best.unit = {unit.name, unit.metres};
   }
   // The stated one stays where the sizes speak for no other.
-  if (stated && Misfit(sizes, stated->metres, options) <= best_misfit + kContradiction) return {*stated, true, DescribeSizes(sizes, *stated)};
+  if (stated && Misfit(sizes, stated->metres, options) <= best_misfit + kContradiction)
+    return {*stated, true, DescribeSizes(sizes, *stated)};
   best.stated_holds = false;
   best.reason = DescribeSizes(sizes, best.unit);
   return best;

@@ -35,10 +35,14 @@ struct UnitChoice {
   std::string reason;        // "walls are 0.14 m thick, doors 0.81 m wide"
 };
 
+// Without the distance between walls where that may be one of rooms: walls drawn as single lines lie as far apart as rooms are wide. It
+// counts where there is nothing better: no doors, and a plan that fits on a sheet of paper if its unit is `metres` long.
+[[nodiscard]] DrawnSizes FirmSizes(const DrawnSizes& sizes, double metres);
 // Whether walls, doors and the plan as a whole have usual sizes where the drawing's unit is that long.
 [[nodiscard]] bool SizesHold(const DrawnSizes& sizes, double metres, const UnitOptions& options = {});
-[[nodiscard]] std::string DescribeSizes(const DrawnSizes& sizes, const LengthUnit& unit);  // "in mm the plan is 12 m long, walls 0.14 m thick"
-[[nodiscard]] DrawnSizes MeasureSizes(const Drawing& drawing);  // in the drawing's unit
+[[nodiscard]] std::string DescribeSizes(const DrawnSizes& sizes,
+                                        const LengthUnit& unit);  // "in mm the plan is 12 m long, walls 0.14 m thick"
+[[nodiscard]] DrawnSizes MeasureSizes(const Drawing& drawing);    // in the drawing's unit
 [[nodiscard]] UnitChoice ChooseUnit(const DrawnSizes& sizes, const std::optional<LengthUnit>& stated, const UnitOptions& options = {});
 
 }  // namespace plumb::compiler

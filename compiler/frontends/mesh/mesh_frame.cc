@@ -6,9 +6,11 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <utility>
+#include <vector>
 
-#include "compiler/frontends/mesh/mesh_levels.h"
 #include "compiler/frontends/mesh/mesh_bands.h"
+#include "compiler/frontends/mesh/mesh_levels.h"
 
 namespace plumb::compiler {
 namespace {
@@ -27,6 +29,10 @@ constexpr double kStoreyHeight_m = 2.7, kStoreySpread = 0.35, kThickness_m = 0.1
 constexpr double kUnpaired = 0.05;       // of the weight, for meshes without any wall of two faces
 constexpr double kStatedAdvantage = 20;  // a stated unit is left only for one that fits this many times better
 constexpr double kStatedAxisAdvantage = 0.6, kUsualAxisAdvantage = 0.2;  // in nats
+constexpr double kDisorderWeight = 0.4;                                  // many storeys have many heights
+constexpr double kSureAxis = 2.5;                                        // nats of disorder that one axis is ahead of the others
+constexpr size_t kMaxTried = 200000;                                     // triangles, beyond which the disorder alone decides
+constexpr double kUnusualAxisLag = 1.5;                                  // no program has x up by itself
 constexpr double kLevels = 2000;                                         // steps of the histogram over the greatest extent
 
 double Bell(double value, double middle, double spread) {
@@ -75,23 +81,6 @@ double Disorder(const MeshScene& scene, int axis, double step) {
 
 const char* NameOf(UpAxis axis) { return axis == UpAxis::kX ? "x" : axis == UpAxis::kY ? "y" : "z"; }
 
-UpAxis FindUp(const MeshScene& scene) {
-  Eigen::AlignedBox3d box;
-  for (const MeshObject& o : scene.objects) box.extend(Bounds(o.solid));
-  const double step = std::max(box.sizes().maxCoeff() / kLevels, 1e-9);
-  UpAxis best = UpAxis::kZ;
-  double least = 1e300;
-  for (const UpAxis axis : {UpAxis::kZ, UpAxis::kY, UpAxis::kX}) {
-    double disorder = Disorder(scene, static_cast<int>(axis), step);
-    if (scene.up == axis) disorder -= kStatedAxisAdvantage;
-    if (!scene.up && axis == UpAxis::kZ) disorder -= kUsualAxisAdvantage;
-    if (disorder >= least) continue;
-    least = disorder;
-    best = axis;
-  }
-  return best;
-}
-
 // How much the walls of the scene, if its unit is `length_m`, look like those of buildings; 0..1.
 double Likeness(const MeshScene& scene, double length_m, const MeshOptions& options) {
   std::vector<MeshObject> objects = scene.objects;
@@ -130,10 +119,12 @@ double Likeness(const MeshScene& scene, double length_m, const MeshOptions& opti
   return storey * Bell(median, kThickness_m, kThicknessSpread) * std::min(1.0, kUnpaired + 2 * paired / length);
 }
 
-double FindUnit(const MeshScene& scene, const MeshOptions& options) {
+// The unit in which the walls look most like those of buildings, and how much they do.
+std::pair<double, double> BestUnit(const MeshScene& scene, const MeshOptions& options) {
+  if (const auto given = UnitFromName(options.unit)) return {*given, Likeness(scene, *given, options)};
   double best_m = scene.unit_m.value_or(1), best = Likeness(scene, best_m, options);
   // Good enough without a look at the others.
-  if (best > 0.3 || (scene.unit_m && best > 0.01)) return best_m;
+  if (best > 0.3 || (scene.unit_m && best > 0.01)) return {best_m, best};
   if (scene.unit_m) best *= kStatedAdvantage;
   for (const Unit& unit : kUnits) {
     const double likeness = Likeness(scene, unit.length_m, options);
@@ -141,7 +132,51 @@ double FindUnit(const MeshScene& scene, const MeshOptions& options) {
     best = likeness;
     best_m = unit.length_m;
   }
-  return best_m;
+  return {best_m, best};
+}
+
+struct AxisScore {
+  UpAxis axis = UpAxis::kZ;
+  double disorder = 0, lead = 0;  // nats; the lead of what is stated or usual
+  [[nodiscard]] double Total() const { return disorder - lead; }
+};
+
+// The axis along which there are few heights; where several axes are close, as in buildings of many storeys and few rooms, that in whose
+// sections walls look like walls.
+UpAxis FindUp(const MeshScene& scene, const MeshOptions& options) {
+  Eigen::AlignedBox3d box;
+  size_t triangles = 0;
+  for (const MeshObject& o : scene.objects) {
+    box.extend(Bounds(o.solid));
+    triangles += o.solid.triangles.size();
+  }
+  const double step = std::max(box.sizes().maxCoeff() / kLevels, 1e-9);
+  std::vector<AxisScore> scores;
+  for (const UpAxis axis : {UpAxis::kZ, UpAxis::kY, UpAxis::kX}) {
+    AxisScore score{axis, Disorder(scene, static_cast<int>(axis), step), 0};
+    if (scene.up) {
+      score.lead = scene.up == axis ? kStatedAxisAdvantage : 0;
+    } else if (axis != UpAxis::kY) {
+      score.lead = axis == UpAxis::kZ ? kUsualAxisAdvantage : -kUnusualAxisLag;
+    }
+    scores.push_back(score);
+  }
+  std::stable_sort(scores.begin(), scores.end(), [](const AxisScore& a, const AxisScore& b) { return a.Total() < b.Total(); });
+  if (triangles > kMaxTried || scores[1].Total() - scores[0].Total() > kSureAxis) return scores[0].axis;
+  MeshOptions any_unit = options;  // a unit that is stated wrongly says nothing of the axes
+  any_unit.unit.clear();
+  UpAxis best = scores[0].axis;
+  double most = -1e300;
+  for (const AxisScore& score : scores) {
+    if (score.Total() - scores[0].Total() > kSureAxis) continue;
+    MeshScene turned = scene;
+    Apply(TurnFor(score.axis), turned);
+    const double fit = std::log(std::max(BestUnit(turned, any_unit).second, 1e-6)) + score.lead - kDisorderWeight * score.disorder;
+    if (fit <= most) continue;
+    most = fit;
+    best = score.axis;
+  }
+  return best;
 }
 
 std::string TextOf(double unit_m) {
@@ -154,7 +189,7 @@ std::string TextOf(double unit_m) {
 void ChooseUp(const MeshOptions& options, MeshScene& scene, DiagnosticSink& sink) {
   UpAxis up = UpAxis::kZ;
   if (options.up.empty()) {
-    up = FindUp(scene);
+    up = FindUp(scene, options);
     if (scene.up && *scene.up != up) {
       sink.Emit(DiagnosticKind::kMeshAxisContradiction, {},
                 fmt::format("the format has {} up, but floors and lintels lie across {}; {} is taken to be up", NameOf(*scene.up),
@@ -173,7 +208,7 @@ void ChooseUp(const MeshOptions& options, MeshScene& scene, DiagnosticSink& sink
 void ChooseUnit(const MeshOptions& options, MeshScene& scene, DiagnosticSink& sink) {
   double unit_m = UnitFromName(options.unit).value_or(1);
   if (options.unit.empty()) {
-    unit_m = FindUnit(scene, options);
+    unit_m = BestUnit(scene, options).first;
     if (scene.unit_m && *scene.unit_m != unit_m) {
       sink.Emit(DiagnosticKind::kMeshUnitContradiction, {},
                 fmt::format("the format's unit is {}, but storeys and walls measure as in {}; {} is taken", TextOf(*scene.unit_m),

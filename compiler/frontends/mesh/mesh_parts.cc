@@ -11,6 +11,7 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
+constexpr double kLevel = 0.9;    // of a normal: the face is a floor, a ceiling or a cap
 constexpr double kSkin_m = 0.02;  // triangles this close to a wall's box are its faces
 constexpr double kFoot_m = 0.3;   // ... and down to here, where it stands on a slab
 constexpr double kWeld_m = 1e-4;
@@ -55,12 +56,20 @@ std::vector<std::vector<bool>> AssignTriangles(const std::vector<MeshObject>& ob
         if (taken[o][t]) continue;
         const Eigen::Vector3i& corners = solid.triangles[t];
         const Vector3d middle = (Corner(solid, corners, 0) + Corner(solid, corners, 1) + Corner(solid, corners, 2)) / 3;
+        const Vector3d normal =
+            (Corner(solid, corners, 1) - Corner(solid, corners, 0)).cross(Corner(solid, corners, 2) - Corner(solid, corners, 0));
+        const bool is_level = std::abs(normal.z()) > kLevel * normal.norm();
         const size_t none = storey.pieces.size();
         size_t own = none, any = none;
         tree.ForEachIn(Eigen::AlignedBox2d(Vector2d(middle.head<2>())), [&](uint32_t p) {
           const WallPiece& piece = storey.pieces[p];
           if (middle.z() < piece.z0_m - kFoot_m || middle.z() > piece.z1_m + kSkin_m) return;
-          if (!piece.Contains(directions[piece.direction], middle.head<2>(), kSkin_m)) return;
+          const FaceDirection& d = directions[piece.direction];
+          if (!piece.Contains(d, middle.head<2>(), kSkin_m)) return;
+          // Floors and ceilings lie over walls with their middles only.
+          for (int k = 0; is_level && k < 3; ++k) {
+            if (!piece.Contains(d, Corner(solid, corners, k).head<2>(), kSkin_m)) return;
+          }
           size_t& best = piece.group == o + 1 ? own : any;
           best = std::min(best, size_t{p});
         });

@@ -47,13 +47,18 @@ bool AppendSvg(const Source& source, const PlanStorey& storey, const DrawingFile
   const std::optional<LayerRules> rules = RulesFor(WeighNames(*document), options, sink);
   if (!rules) return false;
   Drawing drawing = DrawingFromSvg(*document, *rules);
+  // Hatching would be measured as walls; what it is for sure is known in metres.
+  Drawing unhatched = drawing;
+  HatchingOptions of_unknown_unit;
+  of_unknown_unit.max_spacing_m = 0;
+  DropHatching(unhatched, of_unknown_unit);
+  ScaleDrawing(MetresOf(*document, unhatched, options, sink), drawing);
   if (const size_t lines = DropHatching(drawing); lines > 0)
     sink.Emit(DiagnosticKind::kHatchingLeftOut, {}, fmt::format("{} lines lie beside each other at equal distances; they are taken for hatching or stairs and left out", lines));
   if (drawing.paths.empty()) {
     sink.Emit(DiagnosticKind::kNothingDrawn, {}, "the drawing has no visible lines that could be walls");
     return false;
   }
-  ScaleDrawing(MetresOf(*document, drawing, options, sink), drawing);
   WidenStrokes(drawing);
   if (drawing.spaces.empty()) AddOutlinedRooms(drawing);
   return AppendDrawing(std::move(drawing), storey, options, plan, sink);

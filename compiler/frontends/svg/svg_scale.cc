@@ -49,9 +49,7 @@ std::vector<double> RatiosIn(const Drawing& drawing) {
 
 ScaleChoice ChooseScale(const DrawnSizes& sizes, const std::optional<double>& unit_on_paper_m, const std::vector<double>& ratios, const UnitOptions& options) {
   using Origin = ScaleChoice::Origin;
-  // Walls that are drawn as single lines lie as far apart as rooms are wide: they count only where there is nothing better.
-  DrawnSizes firm = sizes;
-  if (sizes.door > 0 || sizes.extent * unit_on_paper_m.value_or(0) > kLargestPaper_m) firm.wall = 0;
+  const DrawnSizes firm = FirmSizes(sizes, unit_on_paper_m.value_or(0));
   const bool no_evidence = sizes.extent == 0 || (sizes.wall == 0 && sizes.door == 0 && sizes.extent * unit_on_paper_m.value_or(0) > kLargestPaper_m);
   if (unit_on_paper_m && (no_evidence || SizesHold(firm, *unit_on_paper_m, options))) return {*unit_on_paper_m, Origin::kStated, {}};
   const double on_paper_m = unit_on_paper_m.value_or(kPixel_m);

@@ -70,6 +70,30 @@ TEST(FindWallArcs, FacetsThatStandFarFromTheArcAreFlat) {
   for (const Surface* s : surfaces) EXPECT_FALSE(s->arc);
 }
 
+// The ends of its flat side lie on the circle, too.
+TEST(FindWallArcs, TheFlatSideOfAHalfRoundPierIsFlat) {
+  Ring half;
+  for (int i = 0; i <= 36; ++i) half.emplace_back(2 + 0.8 * std::cos(std::numbers::pi * i / 36), 0.8 * std::sin(std::numbers::pi * i / 36));
+  test::PlanBuilder builder;
+  builder.On(builder.Storey("Ground", 0));
+  builder.Prismatic(ElementKind::kWall, "round", half, 0, 2.5);
+  builder.Wall("south", {-2, -3.1}, {6, -3.1}, kThickness_m);
+  builder.Wall("north", {-2, 3.1}, {6, 3.1}, kThickness_m);
+  builder.Wall("west", {-2, -3}, {-2, 3}, kThickness_m);
+  builder.Wall("east", {6, -3}, {6, 3}, kThickness_m);
+  const AGraph graph = Build(builder.plan).graph;
+  size_t arcs = 0, flat = 0;
+  for (const Surface* s : OfRound(graph)) {
+    arcs += s->arc.has_value();
+    if (s->arc) continue;
+    ++flat;
+    EXPECT_NEAR(s->length_m(), 1.6, 1e-3);
+    EXPECT_NEAR(s->normal.y(), -1, 1e-9);
+  }
+  EXPECT_EQ(arcs, 1u);
+  EXPECT_EQ(flat, 1u);
+}
+
 TEST(FindWallArcs, AFullCircleIsTwoHalves) {
   test::PlanBuilder builder;
   builder.On(builder.Storey("Ground", 0));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 #include <set>
+#include <string>
 
 #include "compiler/passes/build_agraph.h"
 
@@ -64,6 +65,25 @@ TEST(AppendStorey, IdsOfOneStoreyAreNotThoseOfAnother) {
   EXPECT_TRUE(ids.contains("2F") || ids.contains("30"));
   EXPECT_TRUE(ids.contains("Upper:2F") || ids.contains("Upper:30"));
   EXPECT_EQ(Compiled(plan).walls.size(), 8u);
+}
+
+// Two walls that cross a corridor's ends: the pieces of the outer walls between them are no doors in frames.
+TEST(AppendStorey, PiecesOfWallBetweenCrossingWallsAreNoDoors) {
+  Drawing drawing;
+  const auto line = [&](double x0, double y0, double x1, double y1) {
+    DrawnPath path;
+    path.role = LineRole::kWall;
+    path.points = {{x0, y0}, {x1, y1}};
+    path.location.guid = std::to_string(drawing.paths.size());
+    drawing.paths.push_back(path);
+  };
+  line(0, 0, 10, 0), line(10, 0, 10, 8), line(10, 8, 0, 8), line(0, 8, 0, 0);
+  line(0, 3, 10, 3), line(0, 4.5, 10, 4.5);
+  PlanIr plan;
+  DiagnosticSink sink;
+  ASSERT_TRUE(AppendStorey(drawing, {{}, "Ground", {}, 0.0}, {}, plan, sink));
+  EXPECT_TRUE(plan.openings.empty());
+  EXPECT_EQ(Compiled(plan).rooms.size(), 3u);
 }
 
 }  // namespace

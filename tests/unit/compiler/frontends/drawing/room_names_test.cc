@@ -28,7 +28,8 @@ TEST(RoomNames, MeasuresAreNoNames) {
 }
 
 TEST(RoomNames, ShortNamesWithNumbersAreNames) {
-  for (const char* name : {"WC", "G.5 WC", "U.3 Bad", "WC 1", "B 12", "B-12", "R0-3", "101 A", "EDV"}) EXPECT_EQ(NameOf({At(2, name)}), name) << name;
+  for (const char* name : {"WC", "G.5 WC", "U.3 Bad", "WC 1", "B 12", "B-12", "R0-3", "101 A", "EDV"})
+    EXPECT_EQ(NameOf({At(2, name)}), name) << name;
 }
 
 TEST(RoomNames, SizesOfDoorsAreNoNames) { EXPECT_EQ(NameOf({At(3, "BATH"), At(2, "2668"), At(1, "2468")}), "BATH"); }

@@ -29,6 +29,13 @@ TEST(Units, StatedUnitHoldsWhereSizesAreUsual) {
   EXPECT_EQ(choice.unit.name, "mm");
 }
 
+// A corridor of rooms of 3 m, drawn as single lines: their distance is no thickness.
+TEST(Units, StatedUnitHoldsForWallsAsFarApartAsRooms) {
+  const UnitChoice choice = ChooseUnit({3, 0, 120}, FindUnit("m"));
+  EXPECT_TRUE(choice.stated_holds);
+  EXPECT_EQ(choice.unit.name, "m");
+}
+
 TEST(Units, InchesUnderAHeaderOfMillimetresAreFound) {
   const UnitChoice choice = ChooseUnit({5.5, 30, 790}, FindUnit("mm"));
   EXPECT_FALSE(choice.stated_holds);

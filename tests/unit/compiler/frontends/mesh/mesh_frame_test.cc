@@ -66,5 +66,23 @@ TEST(MeshFrame, TurnsAndScalesTheOriginWithTheCorners) {
   EXPECT_TRUE(scene.origin.isApprox(Eigen::Vector3d(2000, 3000, 0)));
 }
 
+// More heights than places: several storeys of one room, and nothing stated.
+TEST(MeshFrame, OfSeveralStoreysIsFoundWhicheverAxisIsUp) {
+  for (const double unit_m : {1.0, 0.001}) {
+    for (const bool y_up : {false, true}) {
+      MeshScene scene;
+      for (int storey = 0; storey < 2; ++storey) {
+        test::AddHut(2.9 * storey, 2.7, scene, std::to_string(storey));
+        test::AddBox("slab" + std::to_string(storey), {0, 0, 2.9 * storey + 2.7}, {6, 4, 2.9 * storey + 2.9}, scene);
+      }
+      if (y_up) test::Turn(Eigen::Affine3d(Eigen::AngleAxisd(-std::numbers::pi / 2, Eigen::Vector3d::UnitX())), scene);
+      test::Turn(Eigen::Affine3d(Eigen::Scaling(1 / unit_m)), scene);
+      DiagnosticSink sink;
+      MoveToPlanFrame({}, scene, sink);
+      EXPECT_NEAR(HeightOf(scene), 5.8, 1e-6) << unit_m << (y_up ? " y" : " z");
+    }
+  }
+}
+
 }  // namespace
 }  // namespace plumb::compiler

@@ -43,7 +43,7 @@ TEST(RatiosIn, ReadsThemInTexts) {
 }
 
 // A round hall in circles: nothing tells of walls or doors, so that the page is to be believed.
-TEST(SvgScale, AStatedUnitStaysWhereNothingSpeaksAgainstIt) {
+TEST(ChooseScale, BelievesThePageWhereNothingSpeaksAgainstIt) {
   const ScaleChoice none = ChooseScale({}, 0.01, {}, {});
   EXPECT_EQ(none.origin, ScaleChoice::Origin::kStated);
   EXPECT_EQ(none.metres, 0.01);

@@ -1,0 +1,209 @@
+#include "runtime/odometry/planar/planar_odometry.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <vector>
+
+#include "runtime/odometry/leveling.h"
+#include "runtime/odometry/planar/planar_registration.h"
+#include "runtime/odometry/planar/submap.h"
+
+namespace plumb::runtime {
+namespace {
+
+using GivenMotion = Odometry::GivenMotion;
+
+constexpr double kKeyscan_m = 0.25, kKeyscan_rad = 0.2;     // a scan joins the map after moving this far
+constexpr size_t kMaxKeyscans = 60;
+constexpr int kMinFirstPoints = 40;
+constexpr double kMinShare = 0.65;                          // of likelihood that a pose found must explain; less: look further
+constexpr int kMaxWidenings = 2;
+constexpr double kWidening = 2.5;
+constexpr double kSureMotion_m = 0.05, kSureTurn_rad = 0.02;  // a prior within this at three sigma needs no search
+constexpr double kMaxWindow_m = 4.0, kMaxWindow_rad = 1.6;
+constexpr int kMinFailures = 3;                             // in a row, ...
+constexpr double kMaxLost_s = 1.0;                          // ... for this long: a new map
+constexpr double kMaxPrediction_s = 1.0;                    // velocity is not trusted for longer
+// One sigma. Wheels slip by a share of the way, and turn the robot on the way.
+constexpr double kGivenShare = 0.2, kGivenTurnShare = 0.15, kGivenTurn_radpm = 0.1;
+constexpr double kGivenDrift_mprs = 0.05, kGivenDrift_radprs = 0.04;  // and per root of a second
+constexpr double kMaxSlip = 5.0, kSlipMemory = 0.7;
+constexpr double kAcceleration_mps2 = 1.0, kTurning_radps2 = 1.5;
+constexpr double kFloor_m = 0.005, kFloor_rad = 0.003;
+constexpr double kMaxGivenSpeed_mps = 30.0;                 // beyond, the given odometry has jumped
+constexpr double kBeamsSpacing_m = 0.04;                    // of thinned points
+constexpr double kDrift_m = 0.003, kDrift_rad = 0.001;      // of a step: what neighbouring scans share beyond points' noise
+
+}  // namespace
+
+struct PlanarOdometry::Impl {
+  Impl(const OdometryOptions& o, const Eigen::Vector3d& normal) : options(o), leveling(LevelingRotation(normal)), lines(o.range_sigma_m) {}
+
+  struct Keyscan {
+    PlanarScan scan;
+    Pose2 pose;
+  };
+
+  [[nodiscard]] Pose2 Planar(const Eigen::Isometry3d& moved) const;
+  [[nodiscard]] PlanarPrior Predict(double stamp_s, const std::optional<GivenMotion>& given) const;
+  [[nodiscard]] Pose2 SweepMotion2(double sweep_s, const std::optional<GivenMotion>& given) const;
+  [[nodiscard]] PlanarRegistration Align(const PlanarScan& scan, const PlanarPrior& prior);
+  [[nodiscard]] std::vector<PlacedScan> Placed() const;
+  void AddToMap(PlanarScan scan, const Pose2& at);
+  void Restart();
+
+  OdometryOptions options;
+  Eigen::Matrix3d leveling;
+  std::deque<Keyscan> keyscans;
+  LineMap lines;
+  std::optional<LikelihoodGrid> grid;  // of the keyscans; made when a search needs it
+  bool started = false;
+  int failures = 0;
+  double found_s = 0;  // stamp of the last scan that was placed
+  // Of the last scan.
+  double stamp_s = 0;
+  Pose2 pose, sweep;
+  double sigma_m = 0, sigma_rad = 0;  // grown over scans that were not placed
+  double speed_mps_x = 0, speed_mps_y = 0, turn_radps = 0;  // levelled lidar frame
+  double slip = 1;  // how many times its usual sigma the prior was lately off
+  std::optional<GivenMotion> last_given;
+};
+
+// A motion of the lidar as one of its levelled frame.
+Pose2 PlanarOdometry::Impl::Planar(const Eigen::Isometry3d& moved) const {
+  const Eigen::Matrix3d R = leveling * moved.linear() * leveling.transpose();
+  return {(leveling * moved.translation()).head<2>(), std::atan2(R(1, 0) - R(0, 1), R(0, 0) + R(1, 1))};
+}
+
+PlanarPrior PlanarOdometry::Impl::Predict(double next_stamp_s, const std::optional<GivenMotion>& given) const {
+  PlanarPrior prior;
+  const double dt_s = std::max(next_stamp_s - stamp_s, 0.0);
+  prior.sigma_m = kFloor_m;
+  prior.sigma_rad = kFloor_rad;
+  // A given odometry that jumps between two sweeps was restarted: its step says nothing.
+  const bool continues = given && last_given &&
+                         (last_given->T_start.translation() - given->T_start.translation()).norm() <= kMaxGivenSpeed_mps * std::max(dt_s, 0.1);
+  if (continues) {
+    const Pose2 moved = Planar(last_given->T_start.inverse() * given->T_start);
+    prior.mean = pose * moved;
+    prior.sigma_m += slip * (kGivenShare * moved.t_m.norm() + kGivenDrift_mprs * std::sqrt(dt_s));
+    prior.sigma_rad += slip * (kGivenTurnShare * std::abs(moved.yaw_rad) + kGivenTurn_radpm * moved.t_m.norm() + kGivenDrift_radprs * std::sqrt(dt_s));
+  } else {
+    const double used_s = std::min(dt_s, kMaxPrediction_s);
+    prior.mean = pose * Pose2{used_s * Eigen::Vector2d(speed_mps_x, speed_mps_y), used_s * turn_radps};
+    prior.sigma_m += kAcceleration_mps2 * dt_s * dt_s;
+    prior.sigma_rad += kTurning_radps2 * dt_s * dt_s;
+  }
+  prior.sigma_m = std::hypot(prior.sigma_m, sigma_m);
+  prior.sigma_rad = std::hypot(prior.sigma_rad, sigma_rad);
+  return prior;
+}
+
+// During a sweep, at its predicted speed.
+Pose2 PlanarOdometry::Impl::SweepMotion2(double sweep_s, const std::optional<GivenMotion>& given) const {
+  if (sweep_s <= 0) return {};
+  if (given) return Planar(given->T_start.inverse() * given->T_end);
+  return {sweep_s * Eigen::Vector2d(speed_mps_x, speed_mps_y), sweep_s * turn_radps};
+}
+
+std::vector<PlacedScan> PlanarOdometry::Impl::Placed() const {
+  std::vector<PlacedScan> placed;
+  placed.reserve(keyscans.size());
+  for (const Keyscan& keyscan : keyscans) placed.push_back({&keyscan.scan, keyscan.pose});
+  return placed;
+}
+
+void PlanarOdometry::Impl::AddToMap(PlanarScan scan, const Pose2& at) {
+  keyscans.push_back({std::move(scan), at});
+  if (keyscans.size() > kMaxKeyscans) keyscans.pop_front();
+  lines = LinesOf(Placed(), options.range_sigma_m);
+  grid.reset();
+}
+
+PlanarRegistration PlanarOdometry::Impl::Align(const PlanarScan& scan, const PlanarPrior& prior) {
+  PlanarRegistrationOptions registration;
+  registration.max_iterations = options.max_iterations;
+  registration.sigma_m = options.range_sigma_m;
+  registration.initial_kernel_m = 0.1;
+  SearchWindow window{std::min(3 * prior.sigma_m, kMaxWindow_m), std::min(3 * prior.sigma_rad, kMaxWindow_rad)};
+  if (window.half_m < kSureMotion_m && window.half_rad < kSureTurn_rad) {
+    PlanarRegistration aligned = RegisterPlanar(scan, lines, prior.mean, prior, registration);
+    if (aligned.ok) return aligned;
+  }
+  if (!grid) grid = GridOf(Placed(), pose.t_m);
+  const std::vector<Eigen::Vector2d> points = SearchPoints(scan);
+  SearchResult found = grid->Search(points, prior, window);
+  for (int i = 0; i < kMaxWidenings && found.share < kMinShare; ++i) {
+    window = {std::min(std::max(kWidening * window.half_m, 0.3), kMaxWindow_m), std::min(std::max(kWidening * window.half_rad, 0.2), kMaxWindow_rad)};
+    found = grid->Search(points, prior, window);
+  }
+  return RegisterPlanar(scan, lines, found.pose, prior, registration);
+}
+
+void PlanarOdometry::Impl::Restart() {
+  keyscans.clear();
+  failures = 0;
+  sigma_m = sigma_rad = 0;
+}
+
+PlanarOdometry::PlanarOdometry(const OdometryOptions& options, const Eigen::Vector3d& normal) : impl_(std::make_unique<Impl>(options, normal)) {}
+PlanarOdometry::~PlanarOdometry() = default;
+
+OdometryResult PlanarOdometry::Register(const PreparedScan& prepared, const std::optional<GivenMotion>& given) {
+  Impl& s = *impl_;
+  OdometryResult result;
+  result.planar = true;
+  result.timed = prepared.sweep_s > 0;
+  const double stamp_s = prepared.scan.stamp_s;
+  s.sweep = s.SweepMotion2(prepared.sweep_s, given);
+  PlanarScan scan = MakePlanarScan(prepared, s.leveling, {Pose2(), s.sweep}, s.options.range_sigma_m);
+  const bool too_few = static_cast<int>(scan.size()) < kMinFirstPoints;
+  if (!s.started) {
+    result.ok = s.started = !too_few;
+    s.found_s = stamp_s;
+    if (result.ok) s.AddToMap(std::move(scan), s.pose);
+  } else {
+    const PlanarPrior prior = s.Predict(stamp_s, given);
+    const PlanarRegistration aligned = s.Align(scan, prior);
+    result.ok = aligned.ok;
+    const Pose2 before = s.pose;
+    s.pose = aligned.ok ? aligned.pose : prior.mean;
+    s.sigma_m = aligned.ok ? 0 : prior.sigma_m;
+    s.sigma_rad = aligned.ok ? 0 : prior.sigma_rad;
+    if (aligned.ok) {
+      const double dt_s = stamp_s - s.stamp_s;
+      const Pose2 moved = Between(before, s.pose);
+      if (dt_s > 1e-3 && s.failures == 0) {
+        s.speed_mps_x = moved.t_m.x() / dt_s;
+        s.speed_mps_y = moved.t_m.y() / dt_s;
+        s.turn_radps = moved.yaw_rad / dt_s;
+      }
+      s.found_s = stamp_s;
+      const Pose2 off = Between(prior.mean, s.pose);
+      const double sigmas2 = (off.t_m.squaredNorm() / (prior.sigma_m * prior.sigma_m) + std::pow(off.yaw_rad / prior.sigma_rad, 2)) / 3;
+      s.slip = std::clamp(s.slip * std::sqrt(kSlipMemory + (1 - kSlipMemory) * sigmas2), 1.0, kMaxSlip);
+    }
+    s.failures = aligned.ok ? 0 : s.failures + (too_few ? 0 : 1);
+    result.restarted = s.failures >= kMinFailures && stamp_s - s.found_s >= kMaxLost_s;
+    if (result.restarted) s.Restart();
+    Eigen::Matrix3d odom_to_before = Eigen::Matrix3d::Identity();
+    odom_to_before.topLeftCorner<2, 2>() = before.Rotation().transpose();
+    result.step_covariance = odom_to_before * (aligned.ok ? aligned.covariance : Eigen::Matrix3d(Eigen::Vector3d(prior.sigma_m * prior.sigma_m, prior.sigma_m * prior.sigma_m, prior.sigma_rad * prior.sigma_rad).asDiagonal())) * odom_to_before.transpose();
+    result.step_covariance += Eigen::Vector3d(kDrift_m * kDrift_m, kDrift_m * kDrift_m, kDrift_rad * kDrift_rad).asDiagonal();
+    const bool far = s.keyscans.empty() || Between(s.keyscans.back().pose, s.pose).t_m.norm() >= kKeyscan_m ||
+                     std::abs(Between(s.keyscans.back().pose, s.pose).yaw_rad) >= kKeyscan_rad;
+    if (result.restarted || (aligned.ok && far)) s.AddToMap(std::move(scan), s.pose);
+    result.iterations = aligned.iterations;
+    result.num_inliers = aligned.num_inliers;
+    result.rms_m = aligned.rms_m;
+  }
+  s.stamp_s = stamp_s;
+  s.last_given = given;
+  const LeveledPose start{s.pose, s.leveling, 0}, end{s.pose * s.sweep, s.leveling, 0};
+  result.T_odom_lidar = start.Lifted();
+  result.deskewed = Deskew(prepared, {start.Lifted(), end.Lifted()});
+  return result;
+}
+
+}  // namespace plumb::runtime

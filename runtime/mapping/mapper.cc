@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "runtime/mapping/planar_segmentation.h"
 #include "runtime/mapping/segmentation.h"
 
 namespace plumb::runtime {
@@ -35,6 +36,7 @@ std::string MapperOptions::Check() const {
   if (!(max_range_m > min_range_m)) return bad("max_range_m", max_range_m, "> min_range_m");
   if (!(plane_sigma_m >= 0.002 && plane_sigma_m <= 0.2)) return bad("plane_sigma_m", plane_sigma_m, "in [0.002, 0.2]");
   if (min_segment_points < 3) return bad("min_segment_points", min_segment_points, ">= 3");
+  if (min_line_points < 3) return bad("min_line_points", min_line_points, ">= 3");
   if (!(min_segment_extent_m >= 0)) return bad("min_segment_extent_m", min_segment_extent_m, ">= 0");
   if (!(merge_distance_m > 0)) return bad("merge_distance_m", merge_distance_m, "> 0");
   if (!(merge_angle_rad > 0 && merge_angle_rad < 0.5)) return bad("merge_angle_rad", merge_angle_rad, "in (0, 0.5)");
@@ -44,10 +46,10 @@ std::string MapperOptions::Check() const {
 
 Mapper::Mapper(const MapperOptions& options) : options_(options) {}
 
-bool Mapper::AddScan(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar) {
+bool Mapper::AddScan(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar, const std::optional<Eigen::Matrix3d>& planar_step) {
   const bool grown = window_ && WindowIsFull(deskewed.stamp_s, T_odom_lidar) && CloseWindow();
   if (!window_) window_.emplace(options_, deskewed.stamp_s, T_odom_lidar);
-  window_->Add(deskewed, T_odom_lidar);
+  window_->Add(deskewed, T_odom_lidar, planar_step.has_value());
   return grown;
 }
 
@@ -75,7 +77,8 @@ bool Mapper::CloseWindow() {
   keyframe.points = window.ThinnedPoints();
   if (keyframe.points.empty()) return false;
   graph_.keyframes.push_back(std::move(keyframe));
-  for (const Segment& segment : ExtractSegments(window, options_)) AddSegment(segment, graph_.keyframes.back());
+  const std::vector<Segment> segments = window.planar() ? ExtractLineSegments(window, options_) : ExtractSegments(window, options_);
+  for (const Segment& segment : segments) AddSegment(segment, graph_.keyframes.back());
   MergeDuplicates();
   return true;
 }

@@ -21,7 +21,9 @@ class Mapper {
   explicit Mapper(const MapperOptions& options = {});
 
   // Adds one deskewed scan, points in the lidar frame at its stamp. True if it closed a keyframe, i.e. the graph has grown.
-  bool AddScan(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar);
+  // `planar_step`: of a planar laser (OdometryResult::planar), the covariance of (x, y, yaw) of the motion since the last scan. Its scans see walls
+  // only, as lines (planar_segmentation.h), and the loops they make are closed here (loop_closure.h).
+  bool AddScan(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar, const std::optional<Eigen::Matrix3d>& planar_step = std::nullopt);
   // Makes a keyframe of what AddScan() has gathered since the last one, at a recording's end. True if the graph has grown.
   bool Flush();
 

@@ -201,7 +201,7 @@ void Run(const Input& input, bool surfaces, const std::string& points_path) {
     const OdometryResult r = odometry.Register(*scan, given);
     odometry_timer.Stop();
     mapper_timer.Start();
-    if (r.ok) mapper.AddScan(r.deskewed, r.T_odom_lidar);
+    if (r.ok) mapper.AddScan(r.deskewed, r.T_odom_lidar, r.planar ? std::optional(r.step_covariance) : std::nullopt);
     mapper_timer.Stop();
     failed += r.ok ? 0 : 1;
     iterations += r.iterations;

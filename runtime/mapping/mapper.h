@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "runtime/mapping/keyframe_window.h"
+#include "runtime/mapping/loop_closure.h"
 #include "runtime/mapping/map_surfaces.h"
 #include "runtime/mapping/mapper_options.h"
 #include "runtime/mapping/sgraph.h"
@@ -42,6 +43,7 @@ class Mapper {
   bool CloseWindow();
   void AddSegment(const Segment& segment, const Keyframe& keyframe);
   void Empty(size_t i);
+  void CloseLoops(const KeyframeWindow& window);
   void MergeDuplicates();
 
   MapperOptions options_;
@@ -49,6 +51,7 @@ class Mapper {
   Eigen::Isometry3d T_map_odom_ = Eigen::Isometry3d::Identity();
   std::vector<SurfaceTrack> tracks_;  // of each surface
   std::optional<KeyframeWindow> window_;
+  LoopCloser loops_;
 };
 
 }  // namespace plumb::runtime

@@ -35,6 +35,14 @@ struct Pose2 {
   return first * a_b * first.transpose() + second * b_c * second.transpose();
 }
 
+// Of T_b_a, in the axes of b, given that of T_a_b in the axes of a.
+[[nodiscard]] inline Eigen::Matrix3d InverseCovariance(const Pose2& T_a_b, const Eigen::Matrix3d& covariance) {
+  Eigen::Matrix3d J = Eigen::Matrix3d::Identity();
+  J.topLeftCorner<2, 2>() = T_a_b.Rotation().transpose();
+  J.topRightCorner<2, 1>() = -Perpendicular(T_a_b.Rotation().transpose() * T_a_b.t_m);
+  return J * covariance * J.transpose();
+}
+
 // A body's pose as a planar pose of its levelled frame: T = Lifted(pose) * leveling * height. `leveling` has no yaw.
 struct LeveledPose {
   Pose2 pose;

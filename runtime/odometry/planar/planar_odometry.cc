@@ -16,12 +16,12 @@ using GivenMotion = Odometry::GivenMotion;
 
 constexpr double kKeyscan_m = 0.25, kKeyscan_rad = 0.2;     // a scan joins the map after moving this far
 constexpr size_t kMaxKeyscans = 60;
-constexpr int kMinFirstPoints = 40;
+constexpr size_t kMinFirstPoints = 40;
 constexpr double kMinShare = 0.65;                          // of likelihood that a pose found must explain; less: look further
 constexpr int kMaxWidenings = 2;
 constexpr double kWidening = 2.5;
 constexpr double kSureMotion_m = 0.05, kSureTurn_rad = 0.02;  // a prior within this at three sigma needs no search
-constexpr double kMaxWindow_m = 4.0, kMaxWindow_rad = 1.6;
+constexpr double kMaxWindow_m = 3.0, kMaxWindow_rad = 1.2;
 constexpr int kMinFailures = 3;                             // in a row, ...
 constexpr double kMaxLost_s = 1.0;                          // ... for this long: a new map
 constexpr double kMaxPrediction_s = 1.0;                    // velocity is not trusted for longer
@@ -32,8 +32,9 @@ constexpr double kMaxSlip = 5.0, kSlipMemory = 0.7;
 constexpr double kAcceleration_mps2 = 1.0, kTurning_radps2 = 1.5;
 constexpr double kFloor_m = 0.005, kFloor_rad = 0.003;
 constexpr double kMaxGivenSpeed_mps = 30.0;                 // beyond, the given odometry has jumped
-constexpr double kBeamsSpacing_m = 0.04;                    // of thinned points
 constexpr double kDrift_m = 0.003, kDrift_rad = 0.001;      // of a step: what neighbouring scans share beyond points' noise
+
+Eigen::Matrix3d Diagonal(double at_m, double at_rad) { return Eigen::Vector3d(at_m * at_m, at_m * at_m, at_rad * at_rad).asDiagonal(); }
 
 }  // namespace
 
@@ -47,11 +48,13 @@ struct PlanarOdometry::Impl {
 
   [[nodiscard]] Pose2 Planar(const Eigen::Isometry3d& moved) const;
   [[nodiscard]] PlanarPrior Predict(double stamp_s, const std::optional<GivenMotion>& given) const;
-  [[nodiscard]] Pose2 SweepMotion2(double sweep_s, const std::optional<GivenMotion>& given) const;
+  [[nodiscard]] Pose2 DuringSweep(double sweep_s, const std::optional<GivenMotion>& given) const;
   [[nodiscard]] PlanarRegistration Align(const PlanarScan& scan, const PlanarPrior& prior);
   [[nodiscard]] std::vector<PlacedScan> Placed() const;
   void AddToMap(PlanarScan scan, const Pose2& at);
-  void Restart();
+  void Learn(const PlanarPrior& prior, const Pose2& at, double dt_s);
+  [[nodiscard]] bool IsNewGround(const Pose2& at) const;
+  void Track(PlanarScan scan, double next_stamp_s, const std::optional<GivenMotion>& given, OdometryResult* result);
 
   OdometryOptions options;
   Eigen::Matrix3d leveling;
@@ -63,9 +66,10 @@ struct PlanarOdometry::Impl {
   double found_s = 0;  // stamp of the last scan that was placed
   // Of the last scan.
   double stamp_s = 0;
-  Pose2 pose, sweep;
+  Pose2 pose;
   double sigma_m = 0, sigma_rad = 0;  // grown over scans that were not placed
-  double speed_mps_x = 0, speed_mps_y = 0, turn_radps = 0;  // levelled lidar frame
+  Eigen::Vector2d velocity_mps = Eigen::Vector2d::Zero();  // levelled lidar frame
+  double turn_radps = 0;
   double slip = 1;  // how many times its usual sigma the prior was lately off
   std::optional<GivenMotion> last_given;
 };
@@ -91,7 +95,7 @@ PlanarPrior PlanarOdometry::Impl::Predict(double next_stamp_s, const std::option
     prior.sigma_rad += slip * (kGivenTurnShare * std::abs(moved.yaw_rad) + kGivenTurn_radpm * moved.t_m.norm() + kGivenDrift_radprs * std::sqrt(dt_s));
   } else {
     const double used_s = std::min(dt_s, kMaxPrediction_s);
-    prior.mean = pose * Pose2{used_s * Eigen::Vector2d(speed_mps_x, speed_mps_y), used_s * turn_radps};
+    prior.mean = pose * Pose2{used_s * velocity_mps, used_s * turn_radps};
     prior.sigma_m += kAcceleration_mps2 * dt_s * dt_s;
     prior.sigma_rad += kTurning_radps2 * dt_s * dt_s;
   }
@@ -101,10 +105,10 @@ PlanarPrior PlanarOdometry::Impl::Predict(double next_stamp_s, const std::option
 }
 
 // During a sweep, at its predicted speed.
-Pose2 PlanarOdometry::Impl::SweepMotion2(double sweep_s, const std::optional<GivenMotion>& given) const {
+Pose2 PlanarOdometry::Impl::DuringSweep(double sweep_s, const std::optional<GivenMotion>& given) const {
   if (sweep_s <= 0) return {};
   if (given) return Planar(given->T_start.inverse() * given->T_end);
-  return {sweep_s * Eigen::Vector2d(speed_mps_x, speed_mps_y), sweep_s * turn_radps};
+  return {sweep_s * velocity_mps, sweep_s * turn_radps};
 }
 
 std::vector<PlacedScan> PlanarOdometry::Impl::Placed() const {
@@ -141,10 +145,56 @@ PlanarRegistration PlanarOdometry::Impl::Align(const PlanarScan& scan, const Pla
   return RegisterPlanar(scan, lines, found.pose, prior, registration);
 }
 
-void PlanarOdometry::Impl::Restart() {
-  keyscans.clear();
-  failures = 0;
+// Speed, slip and confidence after a scan that was placed.
+void PlanarOdometry::Impl::Learn(const PlanarPrior& prior, const Pose2& at, double dt_s) {
+  if (dt_s > 1e-3 && failures == 0) {
+    const Pose2 moved = Between(pose, at);
+    velocity_mps = moved.t_m / dt_s;
+    turn_radps = moved.yaw_rad / dt_s;
+  }
+  const double sigmas2 = ((at.t_m - prior.mean.t_m).squaredNorm() / (prior.sigma_m * prior.sigma_m) +
+                          std::pow(WrapYaw(at.yaw_rad - prior.mean.yaw_rad) / prior.sigma_rad, 2)) / 3;
+  slip = std::clamp(slip * std::sqrt(kSlipMemory + (1 - kSlipMemory) * sigmas2), 1.0, kMaxSlip);
   sigma_m = sigma_rad = 0;
+  failures = 0;
+}
+
+bool PlanarOdometry::Impl::IsNewGround(const Pose2& at) const {
+  if (keyscans.empty()) return true;
+  const Pose2 moved = Between(keyscans.back().pose, at);
+  return moved.t_m.norm() >= kKeyscan_m || std::abs(moved.yaw_rad) >= kKeyscan_rad;
+}
+
+void PlanarOdometry::Impl::Track(PlanarScan scan, double next_stamp_s, const std::optional<GivenMotion>& given, OdometryResult* result) {
+  const PlanarPrior prior = Predict(next_stamp_s, given);
+  const bool too_few = scan.size() < kMinFirstPoints;
+  const PlanarRegistration aligned = Align(scan, prior);
+  const Pose2 next = aligned.ok ? aligned.pose : prior.mean;
+  Eigen::Matrix3d odom_to_last = Eigen::Matrix3d::Identity();
+  odom_to_last.topLeftCorner<2, 2>() = pose.Rotation().transpose();
+  const Eigen::Matrix3d covariance = aligned.ok ? aligned.covariance : Diagonal(prior.sigma_m, prior.sigma_rad);
+  result->step_covariance = odom_to_last * covariance * odom_to_last.transpose() + Diagonal(kDrift_m, kDrift_rad);
+  if (aligned.ok) {
+    Learn(prior, next, next_stamp_s - stamp_s);
+    found_s = next_stamp_s;
+  } else {
+    failures += too_few ? 0 : 1;
+    sigma_m = prior.sigma_m;
+    sigma_rad = prior.sigma_rad;
+  }
+  result->restarted = failures >= kMinFailures && next_stamp_s - found_s >= kMaxLost_s;
+  if (result->restarted) {
+    keyscans.clear();
+    failures = 0;
+    sigma_m = sigma_rad = 0;
+    found_s = next_stamp_s;
+  }
+  pose = next;
+  if (result->restarted || (aligned.ok && IsNewGround(next))) AddToMap(std::move(scan), next);
+  result->ok = aligned.ok;
+  result->iterations = aligned.iterations;
+  result->num_inliers = aligned.num_inliers;
+  result->rms_m = aligned.rms_m;
 }
 
 PlanarOdometry::PlanarOdometry(const OdometryOptions& options, const Eigen::Vector3d& normal) : impl_(std::make_unique<Impl>(options, normal)) {}
@@ -156,53 +206,20 @@ OdometryResult PlanarOdometry::Register(const PreparedScan& prepared, const std:
   result.planar = true;
   result.timed = prepared.sweep_s > 0;
   const double stamp_s = prepared.scan.stamp_s;
-  s.sweep = s.SweepMotion2(prepared.sweep_s, given);
-  PlanarScan scan = MakePlanarScan(prepared, s.leveling, {Pose2(), s.sweep}, s.options.range_sigma_m);
-  const bool too_few = static_cast<int>(scan.size()) < kMinFirstPoints;
-  if (!s.started) {
-    result.ok = s.started = !too_few;
+  const Pose2 swept = s.DuringSweep(prepared.sweep_s, given);
+  PlanarScan scan = MakePlanarScan(prepared, s.leveling, {Pose2(), swept}, s.options.range_sigma_m);
+  if (s.started) {
+    s.Track(std::move(scan), stamp_s, given, &result);
+  } else if (scan.size() >= kMinFirstPoints) {
+    result.ok = s.started = true;
     s.found_s = stamp_s;
-    if (result.ok) s.AddToMap(std::move(scan), s.pose);
-  } else {
-    const PlanarPrior prior = s.Predict(stamp_s, given);
-    const PlanarRegistration aligned = s.Align(scan, prior);
-    result.ok = aligned.ok;
-    const Pose2 before = s.pose;
-    s.pose = aligned.ok ? aligned.pose : prior.mean;
-    s.sigma_m = aligned.ok ? 0 : prior.sigma_m;
-    s.sigma_rad = aligned.ok ? 0 : prior.sigma_rad;
-    if (aligned.ok) {
-      const double dt_s = stamp_s - s.stamp_s;
-      const Pose2 moved = Between(before, s.pose);
-      if (dt_s > 1e-3 && s.failures == 0) {
-        s.speed_mps_x = moved.t_m.x() / dt_s;
-        s.speed_mps_y = moved.t_m.y() / dt_s;
-        s.turn_radps = moved.yaw_rad / dt_s;
-      }
-      s.found_s = stamp_s;
-      const Pose2 off = Between(prior.mean, s.pose);
-      const double sigmas2 = (off.t_m.squaredNorm() / (prior.sigma_m * prior.sigma_m) + std::pow(off.yaw_rad / prior.sigma_rad, 2)) / 3;
-      s.slip = std::clamp(s.slip * std::sqrt(kSlipMemory + (1 - kSlipMemory) * sigmas2), 1.0, kMaxSlip);
-    }
-    s.failures = aligned.ok ? 0 : s.failures + (too_few ? 0 : 1);
-    result.restarted = s.failures >= kMinFailures && stamp_s - s.found_s >= kMaxLost_s;
-    if (result.restarted) s.Restart();
-    Eigen::Matrix3d odom_to_before = Eigen::Matrix3d::Identity();
-    odom_to_before.topLeftCorner<2, 2>() = before.Rotation().transpose();
-    result.step_covariance = odom_to_before * (aligned.ok ? aligned.covariance : Eigen::Matrix3d(Eigen::Vector3d(prior.sigma_m * prior.sigma_m, prior.sigma_m * prior.sigma_m, prior.sigma_rad * prior.sigma_rad).asDiagonal())) * odom_to_before.transpose();
-    result.step_covariance += Eigen::Vector3d(kDrift_m * kDrift_m, kDrift_m * kDrift_m, kDrift_rad * kDrift_rad).asDiagonal();
-    const bool far = s.keyscans.empty() || Between(s.keyscans.back().pose, s.pose).t_m.norm() >= kKeyscan_m ||
-                     std::abs(Between(s.keyscans.back().pose, s.pose).yaw_rad) >= kKeyscan_rad;
-    if (result.restarted || (aligned.ok && far)) s.AddToMap(std::move(scan), s.pose);
-    result.iterations = aligned.iterations;
-    result.num_inliers = aligned.num_inliers;
-    result.rms_m = aligned.rms_m;
+    s.AddToMap(std::move(scan), s.pose);
   }
   s.stamp_s = stamp_s;
   s.last_given = given;
-  const LeveledPose start{s.pose, s.leveling, 0}, end{s.pose * s.sweep, s.leveling, 0};
-  result.T_odom_lidar = start.Lifted();
-  result.deskewed = Deskew(prepared, {start.Lifted(), end.Lifted()});
+  const Eigen::Isometry3d T_start = LeveledPose{s.pose, s.leveling, 0}.Lifted(), T_end = LeveledPose{s.pose * swept, s.leveling, 0}.Lifted();
+  result.T_odom_lidar = T_start;
+  result.deskewed = Deskew(prepared, {T_start, T_end});
   return result;
 }
 

@@ -15,7 +15,7 @@ namespace plumb::runtime {
 
 class PlanarOdometry {
  public:
-  // `normal`: of the scan plane in the lidar frame (ScanPlaneNormal), taken as up. `start`: T_odom_lidar of the first scan.
+  // `normal`: of the scan plane in the lidar frame (ScanPlaneNormal), taken as up.
   PlanarOdometry(const OdometryOptions& options, const Eigen::Vector3d& normal);
   ~PlanarOdometry();
 

@@ -90,7 +90,7 @@ PlanarScan MakePlanarScan(const PreparedScan& prepared, const Eigen::Matrix3d& l
   const Pose2 moved = Between(motion.start, motion.end);
   for (const SweepPoint& point : prepared.points) {
     const Pose2 at{point.s * moved.t_m, point.s * moved.yaw_rad};
-    scan.push_back({at * Eigen::Vector2d((leveling * point.p).head<2>()), Eigen::Vector2d::Zero()});
+    scan.push_back({at * Eigen::Vector2d((leveling * point.p).head<2>()), Eigen::Vector2d::Zero(), point.s});
   }
   std::stable_sort(scan.begin(), scan.end(),
                    [](const PlanarPoint& a, const PlanarPoint& b) { return std::atan2(a.p.y(), a.p.x()) < std::atan2(b.p.y(), b.p.x()); });

@@ -21,6 +21,7 @@ namespace plumb::runtime {
 struct PlanarPoint {
   Eigen::Vector2d p = Eigen::Vector2d::Zero();
   Eigen::Vector2d normal = Eigen::Vector2d::Zero();  // of the line that its neighbours form, towards the sensor; zero: they form none
+  double s = 0;                                      // fraction of the sweep at which it was seen
   [[nodiscard]] bool has_normal() const { return normal != Eigen::Vector2d::Zero(); }
 };
 

@@ -1,6 +1,8 @@
 #include "compiler/compile.h"
 
 #include <fmt/format.h>
+
+#include <Eigen/Geometry>
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
@@ -13,9 +15,11 @@
 #include <vector>
 
 #include "compiler/emit/emit.h"
+#include "compiler/frontends/dxf/dxf_frontend.h"
 #include "compiler/frontends/ifc/ifc_frontend.h"
 #include "compiler/frontends/mesh/mesh_frontend.h"
 #include "compiler/frontends/sdf/sdf_frontend.h"
+#include "compiler/frontends/svg/svg_frontend.h"
 #include "compiler/passes/alias_forecast.h"
 #include "compiler/passes/build_agraph.h"
 #include "compiler/source/source.h"
@@ -23,6 +27,9 @@
 
 namespace plumb::compiler {
 namespace {
+
+constexpr double kLeastStorey_m = 1.8;  // from floor to floor
+constexpr double kWingOverlap_m = 1.0;  // of two wings of one storey: they share a wall at most
 
 PassOptions PassOptionsFrom(const CompileOptions& options) {
   PassOptions out;
@@ -38,22 +45,23 @@ PassOptions PassOptionsFrom(const CompileOptions& options) {
 // As they stand in the file: what the result depends on.
 std::vector<Option> Recorded(const CompileOptions& options) {
   std::vector<Option> out = {{"section_height_m", fmt::format("{}", options.section_height_m)},
-          {"snap_radius_m", fmt::format("{}", options.snap_radius_m)},
-          {"max_gap_m", fmt::format("{}", options.max_gap_m)},
-          {"divide_open_plans", options.divide_open_plans ? "true" : "false"},
-          {"min_room_area_m2", fmt::format("{}", options.min_room_area_m2)}};
+                             {"snap_radius_m", fmt::format("{}", options.snap_radius_m)},
+                             {"max_gap_m", fmt::format("{}", options.max_gap_m)},
+                             {"divide_open_plans", options.divide_open_plans ? "true" : "false"},
+                             {"min_room_area_m2", fmt::format("{}", options.min_room_area_m2)}};
   if (!options.up.empty()) out.push_back({"up", options.up});
   return out;
 }
 
-void AddDrawingOptions(const DxfOptions& options, std::vector<Option>& out) {
-  const HeightOptions& heights = options.drawing.heights;
+void AddDrawingOptions(const DrawingFileOptions& options, std::vector<Option>& out) {
+  const HeightOptions& heights = options.plan.heights;
   out.insert(out.end(), {{"storey_height_m", fmt::format("{}", heights.storey_m)},
                          {"door_height_m", fmt::format("{}", heights.door_m)},
                          {"sill_height_m", fmt::format("{}", heights.sill_m)},
                          {"window_top_m", fmt::format("{}", heights.window_top_m)},
-                         {"wall_thickness_m", fmt::format("{}", options.drawing.mass.single_line_thickness_m)},
+                         {"wall_thickness_m", fmt::format("{}", options.plan.mass.single_line_thickness_m)},
                          {"unit", options.unit},
+                         {"scale_m", fmt::format("{}", options.scale_m)},
                          {"layers", options.layers},
                          {"sheet", fmt::format("{}", options.sheet)}});
 }
@@ -64,33 +72,87 @@ void ReportHeights(const HeightOptions& heights, DiagnosticSink& sink) {
                         heights.storey_m, heights.door_m, heights.sill_m, heights.window_top_m));
 }
 
+bool IsDrawing(SourceFormat format) { return format == SourceFormat::kDxf || format == SourceFormat::kSvg; }
+
+// One drawing more of a plan, whose source is the first one.
+bool AddDrawing(const Source& source, const StoreyDrawing& drawing, const DrawingFileOptions& options, PlanIr& plan, DiagnosticSink& sink) {
+  const PlanStorey storey{{}, drawing.name, {}, drawing.elevation_m};
+  if (!IsDrawing(source.format)) {
+    sink.Emit(DiagnosticKind::kUnknownFormat, {},
+              fmt::format("`{}` is {}; storeys are drawings in DXF or SVG", source.path, FormatName(source.format)));
+    return false;
+  }
+  const bool read =
+      source.format == SourceFormat::kSvg ? AppendSvg(source, storey, options, plan, sink) : AppendDxf(source, storey, options, plan, sink);
+  if (!read) return false;
+  if (!plan.source_path.empty()) return true;
+  plan.source_path = source.path;
+  plan.source_format = SchemaName(source.format);
+  plan.source_sha256 = source.sha256;
+  return true;
+}
+
+// What a plan has so far.
+struct PlanSize {
+  size_t storeys, elements, openings, spaces;
+};
+PlanSize SizeOf(const PlanIr& plan) { return {plan.storeys.size(), plan.elements.size(), plan.openings.size(), plan.spaces.size()}; }
+
+void StateFile(const PlanSize& from, const std::string& path, PlanIr& plan) {
+  const auto state = [&path](auto& items, size_t first) {
+    for (size_t i = first; i < items.size(); ++i) items[i].location.file = path;
+  };
+  state(plan.storeys, from.storeys);
+  state(plan.elements, from.elements);
+  state(plan.openings, from.openings);
+  state(plan.spaces, from.spaces);
+}
+
+// Storeys one over the other need room for a person between their floors; drawings of two wings may have the same height.
+bool LieApart(const PlanSize& last, const StoreyDrawing& storey, PlanIr& plan, DiagnosticSink& sink) {
+  Eigen::AlignedBox3d own;
+  for (size_t e = last.elements; e < plan.elements.size(); ++e) own.extend(Bounds(plan.elements[e].uncut));
+  for (size_t s = 0; s < last.storeys; ++s) {
+    if (storey.elevation_m - plan.storeys[s].elevation_m >= kLeastStorey_m) continue;
+    Eigen::AlignedBox3d other;
+    for (size_t e = 0; e < last.elements; ++e) {
+      if (plan.elements[e].storey == s) other.extend(Bounds(plan.elements[e].uncut));
+    }
+    if (own.isEmpty() || other.isEmpty() || !own.intersects(other)) continue;
+    const Eigen::Vector3d common = own.intersection(other).sizes();
+    if (common.head<2>().minCoeff() < kWingOverlap_m) continue;
+    sink.Emit(DiagnosticKind::kStoreysCollide, {},
+              fmt::format("the floors of `{}` and `{}` are {:.2f} m apart, and their drawings lie over each other", plan.storeys[s].name,
+                          storey.name, storey.elevation_m - plan.storeys[s].elevation_m),
+              "--storey NAME=FILE@ELEVATION takes the height of each floor, m");
+    return false;
+  }
+  return true;
+}
+
 // In the order of elevation, as PlanIr has its storeys. Where there are several files, messages say which.
-std::optional<PlanIr> ReadDrawings(std::vector<StoreyDrawing> storeys, const DxfOptions& options, DiagnosticSink& sink) {
+std::optional<PlanIr> ReadDrawings(std::vector<StoreyDrawing> storeys, const DrawingFileOptions& options, DiagnosticSink& sink) {
   std::stable_sort(storeys.begin(), storeys.end(), [](const auto& a, const auto& b) { return a.elevation_m < b.elevation_m; });
   PlanIr plan;
   for (const StoreyDrawing& storey : storeys) {
     DiagnosticSink of_file;
+    const PlanSize before = SizeOf(plan);
     const std::optional<Source> source = LoadSource(storey.path, of_file);
-    bool read = source && IsSupported(*source, of_file);
-    if (read && source->format != SourceFormat::kDxf) {
-      of_file.Emit(DiagnosticKind::kUnknownFormat, {}, fmt::format("`{}` is {}; storeys are drawings in DXF", storey.path, FormatName(source->format)));
-      read = false;
+    const bool read = source && IsSupported(*source, of_file) && AddDrawing(*source, storey, options, plan, of_file) &&
+                      LieApart(before, storey, plan, of_file);
+    for (Diagnostic d : of_file.all()) {
+      if (storeys.size() > 1) d.location.file = storey.path;
+      sink.Emit(d.kind, d.location, d.message, d.hint);
     }
-    read = read && AppendDxf(*source, {{}, storey.name, {}, storey.elevation_m}, options, plan, of_file);
-    for (const Diagnostic& d : of_file.all())
-      sink.Emit(d.kind, d.location, storeys.size() > 1 ? fmt::format("{}: {}", storey.name, d.message) : d.message, d.hint);
     if (!read) return std::nullopt;
-    if (!plan.source_path.empty()) continue;
-    plan.source_path = source->path;
-    plan.source_format = "DXF";
-    plan.source_sha256 = source->sha256;
+    if (storeys.size() > 1) StateFile(before, storey.path, plan);
   }
-  ReportHeights(options.drawing.heights, sink);
+  ReportHeights(options.plan.heights, sink);
   return plan;
 }
 
-DxfOptions DxfOptionsFrom(const CompileOptions& options) {
-  DxfOptions out = options.dxf;
+DrawingFileOptions DrawingOptionsFrom(const CompileOptions& options) {
+  DrawingFileOptions out = options.drawing;
   if (!options.unit.empty()) out.unit = options.unit;
   return out;
 }
@@ -109,24 +171,31 @@ std::optional<PlanIr> ReadPlan(const std::string& path, const CompileOptions& op
   if (!source || !IsSupported(*source, sink)) return std::nullopt;
   if (source->format == SourceFormat::kSdf) return ReadSdf(*source, sink, MeshOptionsFrom(options));
   if (IsMesh(source->format)) return ReadMesh(*source, sink, MeshOptionsFrom(options));
-  if (source->format != SourceFormat::kDxf) return ReadIfc(*source, sink);
+  if (!IsDrawing(source->format)) return ReadIfc(*source, sink);
   PlanIr plan;
-  if (!AppendDxf(*source, {{}, "Storey", {}, 0.0}, DxfOptionsFrom(options), plan, sink)) return std::nullopt;
-  plan.source_path = source->path;
-  plan.source_format = "DXF";
-  plan.source_sha256 = source->sha256;
-  ReportHeights(options.dxf.drawing.heights, sink);
+  if (!AddDrawing(*source, {"Storey", path, 0.0}, DrawingOptionsFrom(options), plan, sink)) return std::nullopt;
+  ReportHeights(options.drawing.plan.heights, sink);
   return plan;
 }
 
-// The solids are most of the memory and no longer needed: give it back before the file is put together. Places in the source stay.
-void ReleaseSolids(PlanIr& plan) {
-  for (PlanElement& element : plan.elements) element.body = element.uncut = {};
+void ReturnFreedMemory() {
+#ifdef __GLIBC__
+  malloc_trim(0);  // solids are small blocks, which free alone keeps
+#endif
+}
+
+// The solids are most of the memory: what the passes alone need is given back before the triangles are copied, the bodies before the file
+// is put together. Places in the source stay.
+void ReleaseSolidsOfPasses(PlanIr& plan) {
+  for (PlanElement& element : plan.elements) element.uncut = {};
   for (PlanOpening& opening : plan.openings) opening.body = {};
   for (PlanSpace& space : plan.spaces) space.body = {};
-#ifdef __GLIBC__
-  malloc_trim(0);  // they are small blocks, which free alone keeps
-#endif
+  ReturnFreedMemory();
+}
+
+void ReleaseBodies(PlanIr& plan) {
+  for (PlanElement& element : plan.elements) element.body = {};
+  ReturnFreedMemory();
 }
 
 // What checks of the graph know by GUID only is shown where it stands in the source.
@@ -150,14 +219,18 @@ std::optional<AGraph> Run(std::optional<PlanIr> plan, const CompileOptions& opti
   std::optional<Built> built = BuildAGraph(*plan, PassOptionsFrom(options), sink);
   if (!built) return std::nullopt;
   AGraph graph = std::move(built->graph);
+  built.reset();  // the maps of the floors
+  ReleaseSolidsOfPasses(*plan);
   EmitMesh(*plan, graph);
-  ReleaseSolids(*plan);
+  ReleaseBodies(*plan);
   MoveToPlanFrame(*plan, graph);
   ForecastAliases({}, graph);
   AddLocated(*plan, ValidateGraph(graph), sink);
   std::vector<Option> recorded = Recorded(options);
-  if (plan->source_format == "DXF") AddDrawingOptions(DxfOptionsFrom(options), recorded);
-  else if (!options.unit.empty()) recorded.push_back({"unit", options.unit});
+  if (plan->source_format == "DXF" || plan->source_format == "SVG")
+    AddDrawingOptions(DrawingOptionsFrom(options), recorded);
+  else if (!options.unit.empty())
+    recorded.push_back({"unit", options.unit});
   EmitProvenance(*plan, recorded, sink, graph);
   return graph;
 }
@@ -172,7 +245,7 @@ std::string CompileOptions::Check() const {
   if (!(max_gap_m >= 0 && max_gap_m <= 0.5)) return fmt::format("CompileOptions.max_gap_m = {}; must be in [0, 0.5]", max_gap_m);
   if (const std::string wrong = MeshOptionsFrom(*this).Check(); !wrong.empty()) return wrong;
   if (!(min_room_area_m2 >= 0)) return fmt::format("CompileOptions.min_room_area_m2 = {}; must not be negative", min_room_area_m2);
-  return dxf.Check();
+  return DrawingOptionsFrom(*this).Check();
 }
 
 bool CompileResult::has_internal_error() const {
@@ -209,7 +282,7 @@ CompileResult Compile(const std::string& path, const CompileOptions& options) {
 
 CompileResult CompileStoreys(const std::vector<StoreyDrawing>& storeys, const CompileOptions& options) {
   const std::string path = storeys.empty() ? std::string() : storeys.front().path;
-  return CompileFrom(path, options, [&](DiagnosticSink& sink) { return ReadDrawings(storeys, DxfOptionsFrom(options), sink); });
+  return CompileFrom(path, options, [&](DiagnosticSink& sink) { return ReadDrawings(storeys, DrawingOptionsFrom(options), sink); });
 }
 
 }  // namespace plumb::compiler

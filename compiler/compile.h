@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "compiler/diagnostics/diagnostic.h"
-#include "compiler/frontends/dxf/dxf_frontend.h"
+#include "compiler/frontends/drawing/drawing_file.h"
 #include "schema/agraph.h"
 
 namespace plumb::compiler {
@@ -33,7 +33,7 @@ struct CompileOptions {
   std::string up;                         // of meshes: x, y or z; empty: as stated by the file or seen in its walls
   std::vector<std::string> model_path;    // of Gazebo worlds: folders besides the world's own that hold included models
   bool verify_stages = kVerifyByDefault;  // check the invariants of every intermediate form; a fault is an InternalError
-  DxfOptions dxf;                         // for drawings
+  DrawingFileOptions drawing;             // for drawings: DXF, SVG
   // Empty if every field is valid; else names the field, its value and the rule.
   [[nodiscard]] std::string Check() const;
 };

@@ -196,7 +196,7 @@ Expected<void> Verify(std::span<const uint8_t> bytes) {
   if (bytes.size() < 8 || !flatbuffers::BufferHasIdentifier(bytes.data(), fb::AGraphIdentifier())) {
     const bool is_step = std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()).starts_with("ISO-10303-21");
     return Fail(ErrorCode::kNotAnAGraph, is_step ? "an IFC plan, not yet an A-Graph: `plumb compile` makes one of it"
-                                                 : "not an A-Graph: the file identifier `PLAG` is missing");
+                                                 : "not an A-Graph (the file identifier `PLAG` is missing); of a plan, `plumb compile` makes one");
   }
   // Limits bound the verifier's work; the table limit grows with the file since a table takes at least 8 bytes.
   flatbuffers::Verifier verifier(bytes.data(), bytes.size(), 64, static_cast<flatbuffers::uoffset_t>(bytes.size() / 8 + 1));

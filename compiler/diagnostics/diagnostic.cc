@@ -108,7 +108,8 @@ std::vector<const Diagnostic*> SortedDiagnostics(const std::vector<Diagnostic>& 
   std::vector<const Diagnostic*> out;
   for (const Diagnostic& d : diagnostics) out.push_back(&d);
   std::stable_sort(out.begin(), out.end(), [](const Diagnostic* a, const Diagnostic* b) {
-    return std::tie(a->location.line, a->location.column, a->kind) < std::tie(b->location.line, b->location.column, b->kind);
+    return std::tie(a->location.file, a->location.line, a->location.column, a->kind) <
+           std::tie(b->location.file, b->location.line, b->location.column, b->kind);
   });
   return out;
 }
@@ -127,7 +128,7 @@ std::string DiagnosticsToText(const std::vector<Diagnostic>& diagnostics, const 
     size_t& count = shown[d->kind];
     if (++count > max_per_kind) continue;
     const SourceLocation& at = d->location;
-    fmt::format_to(write, "{}", source_path);
+    fmt::format_to(write, "{}", at.file.empty() ? source_path : at.file);
     if (at.line != 0) fmt::format_to(write, ":{}", at.line);
     if (at.column != 0) fmt::format_to(write, ":{}", at.column);
     fmt::format_to(write, ": {}: {} [{}]\n", SeverityName(d->severity), d->message, CodeOf(d->kind));

@@ -20,6 +20,7 @@ struct SourceLocation {
   std::string guid;      // IfcGloballyUniqueId, DXF handle, mesh object name
   std::string type;      // IfcWallStandardCase, LWPOLYLINE, ...
   uint32_t column = 0;   // 1-based byte in the line
+  std::string file = {};  // of a plan in several files; else empty
 
   [[nodiscard]] std::string ToString() const;  // "#123 IfcDoor 2O2Fr$t4X7Zf8NOew3FLOH"
 };

@@ -29,6 +29,7 @@ std::string ToText(const Report& report) {
 
 Json LocationJson(const SourceLocation& at) {
   Json out = Json::object();
+  if (!at.file.empty()) out["file"] = at.file;
   if (at.line != 0) out["line"] = at.line;
   if (at.column != 0) out["column"] = at.column;
   if (at.step_id != 0) out["step_id"] = at.step_id;
@@ -88,7 +89,9 @@ Json SarifRule(DiagnosticKind kind) {
 
 Json SarifLocation(const Report& report, const SourceLocation& at) {
   Json out;
-  out["physicalLocation"]["artifactLocation"] = {{"uri", PathToUri(report.source_path)}, {"index", 0}};
+  Json& artifact = out["physicalLocation"]["artifactLocation"];
+  artifact["uri"] = PathToUri(at.file.empty() ? report.source_path : at.file);
+  if (at.file.empty() || at.file == report.source_path) artifact["index"] = 0;
   if (at.line != 0) out["physicalLocation"]["region"]["startLine"] = at.line;
   if (at.line != 0 && at.column != 0) out["physicalLocation"]["region"]["startColumn"] = at.column;
   if (at.step_id == 0 && at.guid.empty()) return out;

@@ -34,7 +34,7 @@ class Forecast {
       if (c.rooms.size() > 1) graph_.look_alikes.push_back({c.rooms});
     }
     for (const Candidate& c : Candidates()) {
-      if (graph_.aliases.size() == options_.max_aliases) break;
+      if (graph_.aliases.size() == options_.max_aliases || alias_rooms_ >= options_.max_alias_rooms) break;
       AddAlias(c.motion);
     }
     std::stable_sort(graph_.aliases.begin(), graph_.aliases.end(),
@@ -182,7 +182,9 @@ class Forecast {
       return !coincide;
     });
     const std::vector<Part> parts = PartsThatStay(std::move(pairs));
-    if (!parts.empty()) graph_.aliases.push_back(AliasOf(motion, parts, compared));
+    if (parts.empty()) return;
+    graph_.aliases.push_back(AliasOf(motion, parts, compared));
+    alias_rooms_ += graph_.aliases.back().rooms.size();
   }
 
   Alias AliasOf(const PlanarMotion& motion, const std::vector<Part>& parts, const Comparisons& compared) const {
@@ -249,6 +251,7 @@ class Forecast {
   RoomSections sections_;
   Eigen::AlignedBox3d box_;
   std::vector<TwinClass> classes_;
+  size_t alias_rooms_ = 0;
   std::vector<PlanarMotion> known_ = {PlanarMotion()};
 };
 

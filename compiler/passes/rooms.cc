@@ -144,10 +144,11 @@ class RoomFinder {
 
   // Small, and nothing says that anybody enters it.
   bool IsShaft(const Floor& floor, double area_m2, const std::vector<Ring>& rings) const {
-    if (area_m2 > options_.max_shaft_area_m2 || HasDoor(floor.level, rings)) return false;
+    if (area_m2 > options_.max_shaft_area_m2) return false;
     bool opens = false;
     openings_.ForEachIn(Around(rings, kCornerReach_m, floor.level), [&](uint32_t o) { opens |= LeadsTo(plan_.openings[o].body, rings); });
     if (area_m2 < options_.min_area_m2 || opens) return !opens;
+    if (HasDoor(floor.level, rings)) return false;
     const Eigen::Vector2d middle = Centroid(rings);
     return std::none_of(plan_.spaces.begin(), plan_.spaces.end(), [&](const PlanSpace& space) {
       return Bounds(space.body).exteriorDistance(Eigen::Vector3d(middle.x(), middle.y(), floor.level.section_z_m)) == 0 &&
@@ -155,10 +156,13 @@ class RoomFinder {
     });
   }
 
-  // At the height of the section.
+  // From where the level's floors may lie to the height of the section.
   static Eigen::AlignedBox3d Around(const std::vector<Ring>& rings, double reach_m, const Level& level) {
     Eigen::AlignedBox3d out;
-    for (const auto& p : rings[0]) out.extend(Eigen::Vector3d(p.x(), p.y(), level.section_z_m));
+    for (const auto& p : rings[0]) {
+      out.extend(Eigen::Vector3d(p.x(), p.y(), level.section_z_m));
+      out.extend(Eigen::Vector3d(p.x(), p.y(), level.base_z_m - kFloorSearch_m));
+    }
     out.min().head<2>().array() -= reach_m;
     out.max().head<2>().array() += reach_m;
     return out;

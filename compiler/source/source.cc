@@ -16,6 +16,7 @@ namespace plumb::compiler {
 namespace {
 
 constexpr size_t kDetectionBytes = 4096;
+constexpr size_t kXmlDetectionBytes = 65536;  // comments and entities may stand before the root element
 
 std::string_view SkipMarkAndSpace(std::string_view bytes) {
   if (bytes.starts_with("\xef\xbb\xbf")) bytes.remove_prefix(3);
@@ -62,6 +63,7 @@ bool LooksLikeStl(std::string_view bytes, std::string_view head) {
 
 SourceFormat XmlFormat(std::string_view head) {
   if (head.find("<COLLADA") != std::string_view::npos) return SourceFormat::kCollada;
+  if (head.find("<svg") != std::string_view::npos) return SourceFormat::kSvg;
   if (head.find("<sdf") != std::string_view::npos) return SourceFormat::kSdf;
   return SourceFormat::kXml;
 }
@@ -70,7 +72,8 @@ const char* HintFor(SourceFormat format) {
   switch (format) {
     case SourceFormat::kDwg: return "save it as DXF in the CAD program, or convert it with `dwg2dxf` (LibreDWG) or the ODA File Converter";
     case SourceFormat::kZip: return "unpack the archive and give the plan in it";
-    default: return "export the plan as IFC (STEP, .ifc), DXF, or a mesh (OBJ, PLY, STL, glTF, COLLADA)";
+    case SourceFormat::kPicture: return "a picture has no lines: trace it as DXF or SVG, or export the drawing that it was made from";
+    default: return "export the plan as IFC (STEP, .ifc), DXF, SVG, a mesh (OBJ, PLY, STL, glTF, COLLADA) or a Gazebo world (SDF)";
   }
 }
 
@@ -93,8 +96,9 @@ SourceFormat DetectFormat(std::string_view bytes) {
   if (head.size() >= 6 && head.starts_with("AC10")) return SourceFormat::kDwg;
   if (head.starts_with("ply\n") || head.starts_with("ply\r")) return SourceFormat::kPly;
   if (head.starts_with("glTF")) return SourceFormat::kGltf;
+  if (head.starts_with("%PDF") || head.starts_with("\xFF\xD8\xFF") || head.starts_with("\x89PNG")) return SourceFormat::kPicture;
   if (LooksLikeDxf(head)) return SourceFormat::kDxf;
-  if (head.starts_with("<")) return XmlFormat(head);
+  if (head.starts_with("<")) return XmlFormat(bytes.substr(0, kXmlDetectionBytes));
   if (head.starts_with("{") && head.find("\"asset\"") != std::string_view::npos) return SourceFormat::kGltfJson;
   if (LooksLikeStl(bytes, head)) return SourceFormat::kStl;
   if (LooksLikeObj(head)) return SourceFormat::kObj;
@@ -105,6 +109,7 @@ std::string_view FormatName(SourceFormat format) {
   switch (format) {
     case SourceFormat::kIfcStep: return "IFC in STEP syntax";
     case SourceFormat::kDxf: return "a DXF drawing";
+    case SourceFormat::kSvg: return "an SVG drawing";
     case SourceFormat::kDwg: return "a DWG drawing";
     case SourceFormat::kXml: return "an XML document";
     case SourceFormat::kZip: return "a ZIP archive";
@@ -115,6 +120,7 @@ std::string_view FormatName(SourceFormat format) {
     case SourceFormat::kStl: return "an STL mesh";
     case SourceFormat::kCollada: return "a COLLADA mesh";
     case SourceFormat::kSdf: return "a Gazebo world or model (SDF)";
+    case SourceFormat::kPicture: return "a picture or a document (PDF, JPEG, PNG)";
     case SourceFormat::kUnknown: break;
   }
   return "of no known format";
@@ -122,6 +128,8 @@ std::string_view FormatName(SourceFormat format) {
 
 std::string_view SchemaName(SourceFormat format) {
   switch (format) {
+    case SourceFormat::kDxf: return "DXF";
+    case SourceFormat::kSvg: return "SVG";
     case SourceFormat::kPly: return "PLY";
     case SourceFormat::kGltf:
     case SourceFormat::kGltfJson: return "glTF";
@@ -133,7 +141,17 @@ std::string_view SchemaName(SourceFormat format) {
   }
 }
 
-bool IsMesh(SourceFormat format) { return !SchemaName(format).empty() && format != SourceFormat::kSdf; }
+bool IsMesh(SourceFormat format) {
+  switch (format) {
+    case SourceFormat::kPly:
+    case SourceFormat::kGltf:
+    case SourceFormat::kGltfJson:
+    case SourceFormat::kObj:
+    case SourceFormat::kStl:
+    case SourceFormat::kCollada: return true;
+    default: return false;
+  }
+}
 
 std::optional<Source> LoadSource(const std::string& path, DiagnosticSink& diagnostics, const SourceOptions& options) {
   if (const std::string problem = options.Check(); !problem.empty()) {
@@ -168,11 +186,11 @@ std::optional<Source> LoadSource(const std::string& path, DiagnosticSink& diagno
 }
 
 bool IsSupported(const Source& source, DiagnosticSink& diagnostics) {
-  if (source.format == SourceFormat::kIfcStep || source.format == SourceFormat::kDxf || source.format == SourceFormat::kSdf || IsMesh(source.format)) return true;
+  if (source.format == SourceFormat::kIfcStep || !SchemaName(source.format).empty()) return true;
   diagnostics.Emit(DiagnosticKind::kUnknownFormat, {},
                    source.bytes.empty()
                        ? fmt::format("`{}` is empty", source.path)
-                       : fmt::format("`{}` is {}; a plan is read as IFC in STEP syntax, as a DXF drawing, as a mesh or as SDF", source.path, FormatName(source.format)),
+                       : fmt::format("`{}` is {}; a plan is read as IFC in STEP syntax, as a drawing (DXF, SVG), as a mesh or as SDF", source.path, FormatName(source.format)),
                    HintFor(source.format));
   return false;
 }

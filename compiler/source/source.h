@@ -10,7 +10,7 @@
 
 namespace plumb::compiler {
 
-enum class SourceFormat { kUnknown, kIfcStep, kDxf, kDwg, kXml, kZip, kPly, kGltf, kGltfJson, kObj, kStl, kCollada, kSdf };
+enum class SourceFormat { kUnknown, kIfcStep, kDxf, kSvg, kDwg, kXml, kZip, kPly, kGltf, kGltfJson, kObj, kStl, kCollada, kSdf, kPicture };
 
 struct Source {
   std::string path;

@@ -74,7 +74,8 @@ std::vector<uint32_t> LoopCloser::Candidates(const std::vector<Pose2>& poses) co
   }
   std::sort(near.begin(), near.end());
   std::vector<uint32_t> chosen;
-  for (const auto& [distance_m, i] : near) {
+  for (const auto& [distance_m, index] : near) {
+    const uint32_t i = index;
     const bool apart = std::all_of(chosen.begin(), chosen.end(), [&](uint32_t other) {
       return std::abs(keyframes_[i].travelled_m - keyframes_[other].travelled_m) >= kSpacing_m;
     });

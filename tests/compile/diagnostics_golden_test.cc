@@ -11,6 +11,7 @@
 #include <numbers>
 #include <set>
 
+#include "compiler/frontends/mesh/mesh_options.h"
 #include "compiler/validate.h"
 #include "schema/agraph_reader.h"
 #include "schema/agraph_writer.h"
@@ -46,10 +47,6 @@ Alias AliasOf(const AGraph& g, bool closed) {
   alias.differences = {ElementId(g.elements.size() - 1)};
   return alias;
 }
-
-// Kinds whose smallest input is too large to be stored; their own tests are in ifc_hostile_test.cc and
-// mesh_plans_test.cc.
-const std::set<std::string> kWithoutInput = {"PL1005", "PL4002"};
 
 using Maker = std::function<AGraph()>;
 
@@ -101,9 +98,16 @@ void WriteHuge(const std::string& name) {
   fs::resize_file(name, uintmax_t{3} << 30);  // a hole: takes no room on the disk
 }
 
+// One triangle, again and again.
+void WriteManyTriangles(const std::string& name) {
+  std::string text = "v 0 0 0\nv 4 0 0\nv 0 0 3\n";
+  for (size_t i = 0; i <= MeshOptions().max_triangles; ++i) text += "f 1 2 3\n";
+  ASSERT_TRUE(WriteFileAtomically(name, std::string_view(text)));
+}
+
 // The input is in the working folder afterwards. Its name; empty: there is none.
 std::string Provide(const std::string& code) {
-  for (const char* ending : {".ifc", ".ifc.gz", ".dxf", ".agraph", ".obj", ".ply", ".dae", ".sdf"}) {
+  for (const char* ending : {".ifc", ".ifc.gz", ".dxf", ".svg", ".agraph", ".obj", ".ply", ".dae", ".sdf"}) {
     const fs::path stored = kGoldens / (code + ending);
     if (!fs::exists(stored)) continue;
     fs::copy_file(stored, code + ending);
@@ -116,6 +120,7 @@ std::string Provide(const std::string& code) {
   }
   if (code == "PL1001") return plan;
   if (code == "PL1003") return WriteHuge(plan), plan;
+  if (code == "PL4002") return WriteManyTriangles(code + ".obj"), code + ".obj";
   if (code == "PL8003") return WriteDamaged(graph), graph;
   if (code == "PL8004") return WriteTooNew(graph), graph;
   if (code == "PL9001") return plan;
@@ -136,14 +141,17 @@ class DiagnosticsGolden : public testing::TestWithParam<DiagnosticKind> {
 
 TEST_P(DiagnosticsGolden, SmallestInputGivesTheText) {
   const std::string code = CodeOf(GetParam());
-  if (kWithoutInput.contains(code)) GTEST_SKIP() << "no input small enough to store provokes it";
   const std::string input = Provide(code);
   ASSERT_FALSE(input.empty()) << "there is no " << code << ".ifc in " << kGoldens;
   ValidateOptions options;
   if (GetParam() == DiagnosticKind::kInternalError) options.compile.snap_radius_m = -1;  // as only a caller can
-  if (GetParam() == DiagnosticKind::kLayerRulesUnreadable) options.compile.dxf.layers = "germna";
-  if (GetParam() == DiagnosticKind::kSheetMissing) options.compile.dxf.sheet = 3;
-  const Report report = ValidateFile(input, options);
+  if (GetParam() == DiagnosticKind::kLayerRulesUnreadable) options.compile.drawing.layers = "germna";
+  if (GetParam() == DiagnosticKind::kPlanTooComplex) options.compile.drawing.max_paths = 2;
+  if (GetParam() == DiagnosticKind::kSheetMissing) options.compile.drawing.sheet = 3;
+  // Storeys are given by callers, too.
+  const Report report = GetParam() == DiagnosticKind::kStoreysCollide
+                            ? ReportOf(input, CompileStoreys({{"EG", input, 0.0}, {"OG", input, 0.5}}, {}))
+                            : ValidateFile(input, options);
   std::vector<Diagnostic> found;
   std::copy_if(report.diagnostics.begin(), report.diagnostics.end(), std::back_inserter(found),
                [](const Diagnostic& d) { return d.kind == GetParam(); });

@@ -56,8 +56,19 @@ TEST(OfficeFloor, AsADxfDrawingIsThePlanOfTheIfc) { ExpectSame(Of("office_floor/
 
 TEST(OfficeFloor, AsAMeshIsThePlanOfTheIfc) { ExpectSame(Of("office_floor/plan.ifc"), Of("office_floor/plan.ply"), MeshOptions()); }
 
+// The drawing is not turned, and its corner is 1 m from the sheet's; the building stands turned by 3-4-5's cousin 7-24-25.
+TEST(OfficeFloor, AsAnSvgDrawingIsThePlanOfTheIfc) {
+  const AGraph svg = Of("office_floor/plan.svg");
+  test::SamePlanOptions options;
+  Eigen::Matrix2d turn;
+  turn << 0.96, -0.28, 0.28, 0.96;
+  options.T_reference_other.linear() = turn;
+  options.T_reference_other.translation() = Eigen::Vector2d(-30, 12) + turn * Eigen::Vector2d(-1, 15);  // y is minus the sheet's
+  ExpectSame(Of("office_floor/plan.ifc"), svg, options);
+}
+
 TEST(OfficeFloor, CurvedWallsAreArcsInEveryFormat) {
-  for (const char* file : {"plan.ifc", "plan.dxf", "plan.ply"}) {
+  for (const char* file : {"plan.ifc", "plan.dxf", "plan.ply", "plan.svg"}) {
     const AGraph graph = Of(std::string("office_floor/") + file);
     std::vector<double> radii_m;
     for (const Surface& s : graph.surfaces) {
@@ -73,6 +84,12 @@ TEST(OfficeFloor, CurvedWallsAreArcsInEveryFormat) {
 
 TEST(House, AsDxfDrawingsIsThePlanOfTheIfc) { ExpectSame(Of("house/plan.ifc"), OfHouseStoreys("dxf"), {}); }
 TEST(House, AsAMeshIsThePlanOfTheIfc) { ExpectSame(Of("house/plan.ifc"), Of("house/plan.gltf"), MeshOptions()); }
+
+TEST(House, AsSvgDrawingsIsThePlanOfTheIfc) {
+  test::SamePlanOptions options;
+  options.T_reference_other.translation() = Eigen::Vector2d(-1, 9.5);  // the sheet's corner; y is minus the sheet's
+  ExpectSame(Of("house/plan.ifc"), OfHouseStoreys("svg"), options);
+}
 
 // What the comparison is worth: a plan that differs by 2 cm is not the same.
 TEST(SamePlan, TellsAWallThatStandsTwoCentimetresOff) {

@@ -58,7 +58,7 @@ class EndToEnd : public ::testing::Test {
 fs::path EndToEnd::folder_;
 
 TEST_F(EndToEnd, WritesEveryFileOfARun) {
-  for (const char* name : {"trajectory.tum", "trajectory_smoothed.tum", "verdicts.csv", "timing.csv", "map.ply", "deviations.json", "run.json"}) {
+  for (const char* name : {"trajectory.tum", "trajectory_smoothed.tum", "verdicts.csv", "timing.csv", "map.ply", "sgraph.json", "deviations.json", "run.json"}) {
     EXPECT_TRUE(fs::exists(folder_ / "run" / name)) << name;
   }
   const auto smoothed = runtime::ReadTum((folder_ / "run/trajectory_smoothed.tum").string());

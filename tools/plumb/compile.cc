@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <filesystem>
 #include <iterator>
 #include <memory>
 #include <vector>
@@ -16,6 +15,8 @@
 #include "schema/files.h"
 #include "tools/plumb/command.h"
 #include "tools/plumb/compile_limits.h"
+#include "tools/plumb/flag_names.h"
+#include "tools/plumb/outputs.h"
 
 namespace plumb::tools {
 namespace {
@@ -65,6 +66,8 @@ Expected<std::vector<compiler::StoreyDrawing>> StoreysOf(const CompileFlags& fla
   for (const std::string& text : flags.storeys) {
     Expected<compiler::StoreyDrawing> storey = ParseStorey(text);
     if (!storey) return tl::unexpected(storey.error());
+    const bool known = std::any_of(out.begin(), out.end(), [&](const auto& s) { return s.name == storey->name; });
+    if (known) return Fail(ErrorCode::kBadOption, fmt::format("--storey {}; there is a storey `{}` already", text, storey->name));
     out.push_back(std::move(*storey));
   }
   for (const std::string& plan : flags.plans) {
@@ -82,15 +85,13 @@ compiler::CompileResult CompileWithin(const CompileFlags& flags, const std::vect
 
 Status RunCompile(CompileFlags& flags, Session& session) {
   flags.plan = flags.plans.front();
-  if (const std::string wrong = flags.options.Check(); !wrong.empty()) return session.Fail({ErrorCode::kBadOption, wrong});
-  for (const std::string& plan : flags.plans) {
-    std::error_code error;
-    if (std::filesystem::equivalent(plan, flags.output, error)) {
-      return session.Fail({ErrorCode::kBadOption, fmt::format("--output {}; must not be the plan itself", flags.output)});
-    }
-  }
+  if (const std::string wrong = flags.options.Check(); !wrong.empty()) return session.Fail({ErrorCode::kBadOption, InFlags(wrong)});
   const auto storeys = StoreysOf(flags);
   if (!storeys) return session.Fail(storeys.error());
+  std::vector<std::string> inputs = flags.plans;
+  for (const compiler::StoreyDrawing& storey : *storeys) inputs.push_back(storey.path);
+  const auto apart = CheckOutputs({{"--output", flags.output}, {"--diagnostics-json", flags.diagnostics_json}}, inputs);
+  if (!apart) return session.Fail(apart.error());
   const compiler::CompileResult result = CompileWithin(flags, *storeys);
   const auto& diagnostics = result.diagnostics.all();
   Tell(flags, diagnostics, session.console);
@@ -120,14 +121,15 @@ void AddCompileOptions(CLI::App& subcommand, compiler::CompileOptions& options) 
       ->envname("GAZEBO_MODEL_PATH")
       ->delimiter(':');
   subcommand.add_option("--divide-open-plans", options.divide_open_plans, "along the plan's spaces where no walls do; else one room");
-  compiler::DxfOptions& dxf = options.dxf;
-  subcommand.add_option("--layers", dxf.layers, "of a drawing: aia, english, german, french, italian, spanish, none, or a TOML file")->type_name("SET|FILE");
-  subcommand.add_option("--sheet", dxf.sheet, "of a drawing with several plans side by side, from 1; 0: all, as storeys");
-  subcommand.add_option("--storey-height", dxf.drawing.heights.storey_m, "of a drawing: height of its walls, m");
-  subcommand.add_option("--door-height", dxf.drawing.heights.door_m, "of a drawing: height of its doors, m");
-  subcommand.add_option("--sill-height", dxf.drawing.heights.sill_m, "of a drawing: where its windows begin, m");
-  subcommand.add_option("--window-top", dxf.drawing.heights.window_top_m, "of a drawing: where its windows end, m");
-  subcommand.add_option("--wall-thickness", dxf.drawing.mass.single_line_thickness_m, "of a drawing: of walls drawn as single lines, m");
+  compiler::DrawingFileOptions& drawing = options.drawing;
+  subcommand.add_option("--scale", drawing.scale_m, "of a drawing: metres of one unit of the file, instead of --unit; for SVG the unit of its viewBox");
+  subcommand.add_option("--layers", drawing.layers, "of a drawing: aia, english, german, french, italian, spanish, none, or a TOML file")->type_name("SET|FILE");
+  subcommand.add_option("--sheet", drawing.sheet, "of a drawing with several plans side by side, from 1; 0: all, as storeys");
+  subcommand.add_option("--storey-height", drawing.plan.heights.storey_m, "of a drawing: height of its walls, m");
+  subcommand.add_option("--door-height", drawing.plan.heights.door_m, "of a drawing: height of its doors, m");
+  subcommand.add_option("--sill-height", drawing.plan.heights.sill_m, "of a drawing: where its windows begin, m");
+  subcommand.add_option("--window-top", drawing.plan.heights.window_top_m, "of a drawing: where its windows end, m");
+  subcommand.add_option("--wall-thickness", drawing.plan.mass.single_line_thickness_m, "of a drawing: of walls drawn as single lines, m");
 }
 
 void AddCompile(CLI::App& app, Session& session) {
@@ -135,10 +137,14 @@ void AddCompile(CLI::App& app, Session& session) {
   CLI::App* sub = AddSubcommand(app, session, "compile", "Turn a floor plan into an A-Graph: rooms, wall surfaces, doorways, triangles",
                                 "  plumb compile house.ifc -o house.agraph\n"
                                 "  plumb compile house.ifc.gz -o house.agraph --diagnostics-json house.json\n"
-                                "  plumb compile a.dxf b.dxf --storey EG=a.dxf@0 --storey OG=b.dxf@3.0 -o house.agraph\n"
+                                "  plumb compile flat.svg --scale 0.01 -o flat.agraph\n"
+                                "  plumb compile plan.dxf --layers german --unit cm -o plan.agraph\n"
+                                "  plumb compile site.stl --unit mm --up z -o site.agraph\n"
+                                "  plumb compile house.world --model-path ~/models -o house.agraph\n"
+                                "  plumb compile a.dxf b.svg --storey EG=a.dxf@0 --storey OG=b.svg@3.0 -o house.agraph\n"
                                 "Status 1: the A-Graph is written, but has errors in it: in a plan without walls no robot can localize, say.\n"
                                 "Status 2: nothing is written: the file is damaged, too large, of no schema that is read, or has no building in it.");
-  sub->add_option("PLAN", flags->plans, "the plan: IFC (STEP), a drawing (DXF), a mesh (OBJ, PLY, STL, glTF, COLLADA) or a Gazebo world (SDF); plain, gzipped or in a ZIP archive")->required();
+  sub->add_option("PLAN", flags->plans, "the plan: IFC (STEP), a drawing (DXF, SVG), a mesh (OBJ, PLY, STL, glTF, COLLADA) or a Gazebo world (SDF); plain, gzipped or in a ZIP archive")->required();
   sub->add_option("--storey", flags->storeys, "a drawing's storey and the height of its floor, m; once for each")->type_name("NAME=FILE@ELEVATION")->allow_extra_args(false);
   sub->add_option("-o,--output", flags->output, "the A-Graph to write")->required()->type_name("FILE.agraph");
   sub->add_option("--diagnostics-json", flags->diagnostics_json, "write what the compiler has to say about the plan as JSON")

@@ -16,6 +16,7 @@
 #include "tools/inspect/occupancy_map.h"
 #include "tools/inspect/storeys.h"
 #include "tools/plumb/command.h"
+#include "tools/plumb/outputs.h"
 
 namespace plumb::tools {
 namespace {
@@ -63,6 +64,8 @@ Status RunInspect(const InspectFlags& flags, Session& session) {
   const bool cuts = !flags.svg.empty() || !flags.nav2.empty();
   const Expected<AGraph> graph = cuts ? std::move(*file).Load() : file->graph();
   if (!graph) return session.Fail(graph.error());
+  const auto apart = CheckOutputs({{"--svg", flags.svg}, {"--graphml", flags.graphml}}, {flags.path, graph->source_path});
+  if (!apart) return session.Fail(apart.error());
   StoreyId storey;
   if (!flags.storey.empty()) {
     const auto found = FindStorey(*graph, flags.storey);

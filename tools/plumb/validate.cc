@@ -7,6 +7,8 @@
 #include "schema/files.h"
 #include "tools/plumb/command.h"
 #include "tools/plumb/compile_limits.h"
+#include "tools/plumb/flag_names.h"
+#include "tools/plumb/outputs.h"
 
 namespace plumb::tools {
 namespace {
@@ -28,7 +30,8 @@ compiler::Report ValidateWithin(const ValidateFlags& flags) {
 }
 
 Status RunValidate(const ValidateFlags& flags, Session& session) {
-  if (const std::string wrong = flags.options.compile.Check(); !wrong.empty()) return session.Fail({ErrorCode::kBadOption, wrong});
+  if (const std::string wrong = flags.options.compile.Check(); !wrong.empty()) return session.Fail({ErrorCode::kBadOption, InFlags(wrong)});
+  if (const auto apart = CheckOutputs({{"--output", flags.output}}, {flags.path}); !apart) return session.Fail(apart.error());
   const compiler::Report report = ValidateWithin(flags);
   const std::string text = compiler::ReportToString(report, flags.json ? ReportFormat::kJson : kFormats.at(flags.format));
   if (flags.output.empty()) {
@@ -45,6 +48,7 @@ void AddValidate(CLI::App& app, Session& session) {
   auto flags = std::make_shared<ValidateFlags>();
   CLI::App* sub = AddSubcommand(app, session, "validate", "Say whether a robot can localize in a plan or A-Graph and, if not, why",
                                 "  plumb validate house.ifc\n"
+                                "  plumb validate plan.svg --scale 0.01\n"
                                 "  plumb validate house.agraph --format json\n"
                                 "  plumb validate house.ifc --strict --format sarif -o house.sarif");
   sub->add_option("PLAN|FILE.agraph", flags->path, "what to check")->required();

@@ -1,12 +1,12 @@
 #include "compiler/frontends/drawing/layer_rules.h"
 
 #include <fmt/format.h>
+#include <toml++/toml.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
 #include <filesystem>
-#include <toml++/toml.h>
 
 #include "compiler/frontends/drawing/layer_rule_sets.h"
 #include "schema/files.h"
@@ -14,11 +14,12 @@
 namespace plumb::compiler {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, LayerUse>, 7> kUses = {{{"wall", LayerUse::kWall},
+constexpr std::array<std::pair<std::string_view, LayerUse>, 8> kUses = {{{"wall", LayerUse::kWall},
                                                                          {"column", LayerUse::kColumn},
                                                                          {"door", LayerUse::kDoor},
                                                                          {"window", LayerUse::kWindow},
                                                                          {"opening", LayerUse::kOpening},
+                                                                         {"passage", LayerUse::kPassage},
                                                                          {"room-name", LayerUse::kRoomName},
                                                                          {"ignore", LayerUse::kIgnore}}};
 constexpr size_t kMaxRuleBytes = 1 << 20;
@@ -30,7 +31,8 @@ std::string Lower(std::string_view text) {
   for (size_t i = 0; i < out.size(); ++i) {
     const auto c = static_cast<unsigned char>(out[i]);
     if (c < 0x80) out[i] = static_cast<char>(std::tolower(c));
-    if (i > 0 && static_cast<unsigned char>(out[i - 1]) == 0xc3 && c >= 0x80 && c <= 0x9e && c != 0x97) out[i] = static_cast<char>(c + 0x20);
+    if (i > 0 && static_cast<unsigned char>(out[i - 1]) == 0xc3 && c >= 0x80 && c <= 0x9e && c != 0x97)
+      out[i] = static_cast<char>(c + 0x20);
   }
   return out;
 }
@@ -62,7 +64,8 @@ std::string_view LastPart(std::string_view layer) {
     const size_t before = layer.rfind('$', at - 1);
     if (before == std::string_view::npos) break;
     const std::string_view number = layer.substr(before + 1, at - before - 1);
-    if (!number.empty() && std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; })) return layer.substr(at + 1);
+    if (!number.empty() && std::all_of(number.begin(), number.end(), [](char c) { return c >= '0' && c <= '9'; }))
+      return layer.substr(at + 1);
   }
   return layer;
 }
@@ -94,6 +97,22 @@ Expected<std::vector<std::string>> Patterns(const toml::table& rule, std::string
 
 }  // namespace
 
+LineRole RoleOf(LayerUse use) {
+  switch (use) {
+    case LayerUse::kWall: return LineRole::kWall;
+    case LayerUse::kColumn: return LineRole::kColumn;
+    case LayerUse::kDoor: return LineRole::kDoor;
+    case LayerUse::kWindow: return LineRole::kWindow;
+    case LayerUse::kOpening: return LineRole::kOpening;
+    case LayerUse::kPassage: return LineRole::kPassage;
+    default: return LineRole::kAny;
+  }
+}
+
+bool IsSymbolUse(LayerUse use) {
+  return use == LayerUse::kDoor || use == LayerUse::kWindow || use == LayerUse::kOpening || use == LayerUse::kPassage;
+}
+
 Expected<LayerRules> LayerRules::Parse(std::string_view text, const std::string& source) {
   const auto bad = [&](const std::string& what) { return Fail(ErrorCode::kBadOption, fmt::format("{}: {}", source, what)); };
   toml::table table;
@@ -112,10 +131,15 @@ Expected<LayerRules> LayerRules::Parse(std::string_view text, const std::string&
   for (const toml::node& node : *rules) {
     const toml::table* rule = node.as_table();
     if (rule == nullptr) return bad("a rule is a table");
+    for (const auto& [key, value] : *rule) {
+      if (key.str() != "use" && key.str() != "layers" && key.str() != "names")
+        return bad(fmt::format("unknown key `{}` of a rule; there are `use`, `layers` and `names`", key.str()));
+    }
     Rule entry;
     const std::string use = (*rule)["use"].value_or(std::string());
     const auto known = std::find_if(kUses.begin(), kUses.end(), [&](const auto& u) { return u.first == use; });
-    if (known == kUses.end()) return bad(fmt::format("`use = \"{}\"`; must be wall, column, door, window, opening, room-name or ignore", use));
+    if (known == kUses.end())
+      return bad(fmt::format("`use = \"{}\"`; must be wall, column, door, window, opening, passage, room-name or ignore", use));
     entry.use = known->second;
     auto words = Patterns(*rule, "layers", source), names = Patterns(*rule, "names", source);
     if (!words) return tl::unexpected(words.error());
@@ -157,7 +181,9 @@ Expected<LayerRules> LoadLayerRules(const std::string& name_or_path) {
     known += (known.empty() ? "" : ", ") + set.name();
   }
   Expected<std::string> text = ReadFileText(name_or_path, kMaxRuleBytes);
-  if (!text) return Fail(ErrorCode::kBadOption, fmt::format("`{}` is neither a built-in set of layer rules ({}) nor a file: {}", name_or_path, known, text.error().message));
+  if (!text)
+    return Fail(ErrorCode::kBadOption, fmt::format("`{}` is neither a built-in set of layer rules ({}) nor a file: {}", name_or_path, known,
+                                                   text.error().message));
   return LayerRules::Parse(*text, name_or_path);
 }
 

@@ -11,7 +11,11 @@
 
 namespace plumb::compiler {
 
-enum class LayerUse : uint8_t { kUnknown, kWall, kColumn, kDoor, kWindow, kOpening, kRoomName, kIgnore };
+enum class LayerUse : uint8_t { kUnknown, kWall, kColumn, kDoor, kWindow, kOpening, kPassage, kRoomName, kIgnore };
+
+[[nodiscard]] LineRole RoleOf(LayerUse use);  // kAny for uses that no line has
+// Of what stands in walls and is drawn as one symbol: doors, windows, openings.
+[[nodiscard]] bool IsSymbolUse(LayerUse use);
 
 // A set in TOML:
 //   name = "german"

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <set>
 
+#include "compiler/frontends/drawing/framed_doors.h"
 #include "compiler/frontends/drawing/opening_symbols.h"
 #include "compiler/frontends/drawing/plane.h"
 
@@ -15,9 +16,9 @@ namespace plumb::compiler {
 namespace {
 
 constexpr double kOff_m = 1e-4;
-constexpr double kAgainst = 0.96;   // cosine between sides that face each other
-constexpr double kSkewEnds = 0.87;  // ... between ends of walls: the two lines of a wall often end askew
-constexpr double kMinEnd_m = 0.03;  // narrower ends are no walls
+constexpr double kAgainst = 0.96;    // cosine between sides that face each other
+constexpr double kSkewEnds = 0.87;   // ... between ends of walls: the two lines of a wall often end askew
+constexpr double kMinEnd_m = 0.03;   // narrower ends are no walls
 constexpr double kSillShare = 0.85;  // a window's line runs from jamb to jamb
 
 // A gap between two sides of walls, as a rectangle: `from` to `to` and half the depth to both sides.
@@ -66,6 +67,9 @@ class OpeningFinder {
     AddGaps();
     for (const uint32_t p : paths_) {
       if (!symbols_.IsUsed(p)) AddFromSymbol(p);
+    }
+    for (DrawnOpening& framed : FindFramedDoors(drawing_, outline_.mass())) {
+      if (!IsKnown(framed)) Keep(std::move(framed));
     }
     return std::move(out_);
   }
@@ -129,7 +133,7 @@ class OpeningFinder {
     const Eigen::Vector2d offset = o.middle() - k.middle();
     if (std::abs(o.along().dot(k.along())) > kAgainst)
       return std::abs(offset.dot(k.along())) < 0.5 * std::max(o.width_m(), k.width_m()) &&
-             std::abs(Cross(k.along(), offset)) < 0.5 * (k.depth_m + o.depth_m);
+             std::abs(Cross(k.along(), offset)) < 0.5 * (k.depth_m + o.depth_m) + kMinEnd_m;
     const double side_a = Cross(k.along(), o.from - k.from), side_b = Cross(k.along(), o.to - k.from);
     const double side_c = Cross(o.along(), k.from - o.from), side_d = Cross(o.along(), k.to - o.from);
     return side_a * side_b < 0 && side_c * side_d < 0;
@@ -184,7 +188,8 @@ class OpeningFinder {
       for (const double at : {arc.start_rad, arc.start_rad + arc.sweep_rad})
         out.emplace_back(arc.center, arc.center + arc.radius_m * Eigen::Vector2d(std::cos(at), std::sin(at)));
     }
-    if (path.arcs.empty() && !path.closed && path.points.size() == 2 && path.role == LineRole::kDoor) out.emplace_back(path.points[0], path.points[1]);
+    if (path.arcs.empty() && !path.closed && path.points.size() == 2 && path.role == LineRole::kDoor)
+      out.emplace_back(path.points[0], path.points[1]);
     return out;
   }
 
@@ -195,7 +200,8 @@ class OpeningFinder {
       if (width < options_.min_width_m || width > options_.max_door_gap_m) continue;
       const double near = options_.symbol_slack_m;
       if (outline_.DistanceTo(a, 2 * near) >= near || outline_.DistanceTo(b, 2 * near) >= near) continue;
-      std::optional<DrawnOpening> o = outline_.InWall(0.5 * (a + b)) ? OverWall(a, b) : BetweenWalls(a, b);
+      std::optional<DrawnOpening> o = OverWall(a, b);
+      if (!o && !outline_.InWall(0.5 * (a + b))) o = BetweenWalls(a, b);
       if (!o) continue;
       o->use = DrawnUse::kDoor;
       o->path = p;
@@ -205,21 +211,28 @@ class OpeningFinder {
       Keep(std::move(*o));
       return;
     }
-    if (path.role == LineRole::kWindow || path.role == LineRole::kDoor) AddOverWall(p);
+    if (path.role == LineRole::kWindow || path.role == LineRole::kDoor || path.role == LineRole::kPassage) AddOverWall(p);
   }
 
   // The wall goes on behind the symbol.
   std::optional<DrawnOpening> OverWall(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {
     const Eigen::Vector2d u = (b - a).normalized(), n = Perp(u), m = 0.5 * (a + b);
-    const auto left = outline_.Cast(m, n, kMaxEnd_m), right = outline_.Cast(m, -n, kMaxEnd_m);
-    if (!left || !right || std::abs(outline_.sides()[left->side].along().dot(u)) < kAgainst) return std::nullopt;
-    DrawnOpening out;
-    const Eigen::Vector2d shift = 0.5 * (left->t_m - right->t_m) * n;
-    out.from = a + shift;
-    out.to = b + shift;
-    out.depth_m = left->t_m + right->t_m;
-    out.in_wall = true;
-    return out;
+    // Leaves are often drawn right on the wall's face.
+    for (const double off_m : {0.0, kMinEnd_m, -kMinEnd_m}) {
+      const Eigen::Vector2d inside = m + off_m * n;
+      if (!outline_.InWall(inside)) continue;
+      const auto left = outline_.Cast(inside, n, kMaxEnd_m), right = outline_.Cast(inside, -n, kMaxEnd_m);
+      if (!left || !right || left->t_m + right->t_m < kMinEnd_m) continue;
+      if (std::abs(outline_.sides()[left->side].along().dot(u)) < kAgainst) continue;
+      DrawnOpening out;
+      const Eigen::Vector2d shift = (off_m + 0.5 * (left->t_m - right->t_m)) * n;
+      out.from = a + shift;
+      out.to = b + shift;
+      out.depth_m = left->t_m + right->t_m;
+      out.in_wall = true;
+      return out;
+    }
+    return std::nullopt;
   }
 
   // A door between walls that have no ends there: across a corridor.
@@ -235,10 +248,19 @@ class OpeningFinder {
     return out;
   }
 
+  // The paths of its symbol that can lie in the wall: boxes if there are any, as swings and open leaves stand out of it.
+  std::vector<uint32_t> InWallPartsOf(uint32_t p) const {
+    std::vector<uint32_t> boxes;
+    for (const uint32_t q : symbols_.PathsWith(p)) {
+      if (drawing_.paths[q].closed && drawing_.paths[q].arcs.empty()) boxes.push_back(q);
+    }
+    return boxes.empty() ? symbols_.PathsWith(p) : boxes;
+  }
+
   // A window or a door without a swing whose box lies over a wall; its paths are looked at together.
   void AddOverWall(uint32_t p) {
     const DrawnPath& path = drawing_.paths[p];
-    const std::vector<uint32_t>& members = symbols_.PathsWith(p);
+    const std::vector<uint32_t> members = InWallPartsOf(p);
     Eigen::AlignedBox2d box;
     Eigen::Vector2d u = Eigen::Vector2d::Zero();
     for (const uint32_t q : members) {
@@ -258,7 +280,7 @@ class OpeningFinder {
     if (box.sizes().y() > kMaxEnd_m || !outline_.InWall(m)) return;
     std::optional<DrawnOpening> o = OverWall(m - half * u, m + half * u);
     if (!o || o->width_m() > options_.max_window_gap_m) return;
-    o->use = path.role == LineRole::kDoor ? DrawnUse::kDoor : DrawnUse::kWindow;
+    o->use = path.role == LineRole::kDoor ? DrawnUse::kDoor : path.role == LineRole::kWindow ? DrawnUse::kWindow : DrawnUse::kPassage;
     o->path = p;
     o->location = path.location;
     if (!IsKnown(*o)) Keep(std::move(*o));

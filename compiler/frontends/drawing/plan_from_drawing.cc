@@ -45,6 +45,7 @@ class StoreyBuilder {
     run_options.max_thickness_m = options_.mass.max_thickness_m;
     runs_ = FindWallRuns(outline, openings_, run_options);
     for (WallRun& run : runs_) AddWall(run);
+    AddSpaces();
     if (!AddLeftovers(outline)) return Fail();
     Report(*mass);
     return true;
@@ -229,24 +230,42 @@ class StoreyBuilder {
     if (!wall.uncut.empty()) plan_.elements.push_back(std::move(wall));
   }
 
+  // As the source draws them. What stands in them names them.
+  void AddSpaces() {
+    for (const DrawnSpace& drawn : drawing_.spaces) {
+      std::vector<const DrawnText*> texts;
+      for (const DrawnText& text : drawing_.texts) {
+        if (Contains(drawn.outline, text.at)) texts.push_back(&text);
+      }
+      const std::string name = RoomName(texts);
+      AddSpace(name.empty() ? drawn.name : name, drawn.location, {drawn.outline});
+    }
+  }
+
+  void AddSpace(std::string name, const SourceLocation& location, const Area& area) {
+    PlanSpace space;
+    space.name = std::move(name);
+    space.location = location;
+    space.guid = UniqueGuid(location);
+    space.storey = storey_;
+    space.body = Extrude(area, {0, 0, top_m_ - base_m_});
+    for (auto& v : space.body.vertices) v.z() += base_m_;
+    plan_.spaces.push_back(std::move(space));
+  }
+
   void NameFaces(const LineMap& map, const std::vector<bool>& solid) {
     std::map<uint32_t, std::vector<const DrawnText*>> by_face;
     for (const DrawnText& text : drawing_.texts) {
       const uint32_t face = map.FaceAt(text.at);
-      if (face != 0 && !solid[face]) by_face[face].push_back(&text);
+      const bool drawn = std::any_of(drawing_.spaces.begin(), drawing_.spaces.end(), [&](const DrawnSpace& s) { return Contains(s.outline, text.at); });
+      if (face != 0 && !solid[face] && !drawn) by_face[face].push_back(&text);
     }
     for (const auto& [face, texts] : by_face) {
-      PlanSpace space;
-      space.name = RoomName(texts);
-      if (space.name.empty()) continue;
-      space.location = texts[0]->location;
-      space.guid = UniqueGuid(space.location);
-      space.storey = storey_;
+      const std::string name = RoomName(texts);
+      if (name.empty()) continue;
       Area area;
       for (const uint32_t loop : map.LoopsOf(face)) area.push_back(map.RingAt(loop));
-      space.body = Extrude(area, {0, 0, top_m_ - base_m_});
-      for (auto& v : space.body.vertices) v.z() += base_m_;
-      plan_.spaces.push_back(std::move(space));
+      AddSpace(name, texts[0]->location, area);
     }
   }
 

@@ -87,6 +87,11 @@ std::vector<Drawing> SplitSheets(Drawing drawing, const SheetOptions& options) {
       out[i].texts.push_back(text);
       out[i].texts.back().at += shift;
     }
+    for (const DrawnSpace& space : drawing.spaces) {
+      if (!sheets[i].box.contains(BoxOf(space.outline).center())) continue;
+      out[i].spaces.push_back(space);
+      for (auto& q : out[i].spaces.back().outline) q += shift;
+    }
   }
   return out;
 }
@@ -103,7 +108,9 @@ void MendRoles(Drawing& drawing) {
     }
   }
   std::set<uint32_t> mixed;
-  for (const auto& [layer, lines] : long_lines) {
+  for (const auto& entry : long_lines) {
+    const uint32_t layer = entry.first;
+    const auto& lines = entry.second;
     std::vector<Eigen::AlignedBox2d> boxes;
     for (const MapLine& l : lines) {
       Eigen::AlignedBox2d box(l.a);

@@ -77,19 +77,6 @@ double Misfit(const DrawnSizes& sizes, double metres, const UnitOptions& options
   return out;
 }
 
-bool Holds(const DrawnSizes& sizes, double metres, const UnitOptions& options) {
-  const auto within = [&](double value, double lo, double hi) { return value <= 0 || (value * metres >= lo && value * metres <= hi); };
-  const bool extent = sizes.extent * metres >= kMinPlan_m && sizes.extent * metres <= kMaxPlan_m;
-  return extent && within(sizes.wall, options.min_wall_m, options.max_wall_m) && within(sizes.door, options.min_door_m, options.max_door_m);
-}
-
-std::string Sizes(const DrawnSizes& sizes, const LengthUnit& unit) {
-  std::string out = fmt::format("in {} the plan is {:.3g} m long", unit.name, sizes.extent * unit.metres);
-  if (sizes.wall > 0) out += fmt::format(", walls {:.2g} m thick", sizes.wall * unit.metres);
-  if (sizes.door > 0) out += fmt::format(", doors {:.2g} m wide", sizes.door * unit.metres);
-  return out;
-}
-
 }  // namespace
 
 std::optional<LengthUnit> FindUnit(const std::string& name) {
@@ -99,31 +86,49 @@ std::optional<LengthUnit> FindUnit(const std::string& name) {
   return std::nullopt;
 }
 
+bool SizesHold(const DrawnSizes& sizes, double metres, const UnitOptions& options) {
+  const auto within = [&](double value, double lo, double hi) { return value <= 0 || (value * metres >= lo && value * metres <= hi); };
+  const bool extent = sizes.extent * metres >= kMinPlan_m && sizes.extent * metres <= kMaxPlan_m;
+  return extent && within(sizes.wall, options.min_wall_m, options.max_wall_m) && within(sizes.door, options.min_door_m, options.max_door_m);
+}
+
+std::string DescribeSizes(const DrawnSizes& sizes, const LengthUnit& unit) {
+  std::string out = fmt::format("in {} the plan is {:.3g} m long", unit.name, sizes.extent * unit.metres);
+  if (sizes.wall > 0) out += fmt::format(", walls {:.2g} m thick", sizes.wall * unit.metres);
+  if (sizes.door > 0) out += fmt::format(", doors {:.2g} m wide", sizes.door * unit.metres);
+  return out;
+}
+
 DrawnSizes MeasureSizes(const Drawing& drawing) {
   DrawnSizes out;
   const std::vector<Line> lines = LinesOf(drawing);
   Eigen::AlignedBox2d box;
   for (const Line& line : lines) box.extend(line.a).extend(line.a + line.length * line.u);
+  if (box.isEmpty()) {  // nothing but curves
+    for (const DrawnPath& path : drawing.paths) box.extend(BoxOf(path.points));
+  }
   if (box.isEmpty()) return out;
   out.extent = box.sizes().maxCoeff();
-  std::vector<double> distances, radii;
+  std::vector<double> distances, radii, widths;
   for (size_t i = 0; i < std::min(kSamples, lines.size()); ++i) {
     const double d = DistanceToPartner(lines[i], lines, 1e-5 * out.extent);
     if (d < lines[i].length) distances.push_back(d);
   }
   for (const DrawnPath& path : drawing.paths) {
     if (path.role == LineRole::kWall || path.role == LineRole::kColumn) continue;
+    if (path.role == LineRole::kDoor && path.closed && path.points.size() == 4)
+      widths.push_back(std::max((path.points[1] - path.points[0]).norm(), (path.points[2] - path.points[1]).norm()));
     for (const Arc& arc : path.arcs) {
       if (std::abs(std::abs(arc.sweep_rad) - std::numbers::pi / 2) < 0.1) radii.push_back(arc.radius_m);
     }
   }
   out.wall = Median(std::move(distances));
-  out.door = Median(std::move(radii));
+  out.door = Median(std::move(radii.empty() ? widths : radii));
   return out;
 }
 
 UnitChoice ChooseUnit(const DrawnSizes& sizes, const std::optional<LengthUnit>& stated, const UnitOptions& options) {
-  if (stated && (sizes.extent == 0 || Holds(sizes, stated->metres, options))) return {*stated, true, Sizes(sizes, *stated)};
+  if (stated && (sizes.extent == 0 || SizesHold(sizes, stated->metres, options))) return {*stated, true, DescribeSizes(sizes, *stated)};
   UnitChoice best;
   double best_misfit = std::numeric_limits<double>::infinity();
   for (const KnownUnit& unit : kUnits) {
@@ -133,9 +138,9 @@ UnitChoice ChooseUnit(const DrawnSizes& sizes, const std::optional<LengthUnit>& 
     best.unit = {unit.name, unit.metres};
   }
   // The stated one stays where the sizes speak for no other.
-  if (stated && Misfit(sizes, stated->metres, options) <= best_misfit + kContradiction) return {*stated, true, Sizes(sizes, *stated)};
+  if (stated && Misfit(sizes, stated->metres, options) <= best_misfit + kContradiction) return {*stated, true, DescribeSizes(sizes, *stated)};
   best.stated_holds = false;
-  best.reason = Sizes(sizes, best.unit);
+  best.reason = DescribeSizes(sizes, best.unit);
   return best;
 }
 

@@ -25,7 +25,7 @@ struct UnitOptions {
 // Both in the drawing's unit; 0: there is none.
 struct DrawnSizes {
   double wall = 0;    // median distance between parallel partners
-  double door = 0;    // median radius of swings
+  double door = 0;    // median radius of swings; where there are none, median width of what is drawn as a door
   double extent = 0;  // the longer side of all lines
 };
 
@@ -35,6 +35,9 @@ struct UnitChoice {
   std::string reason;        // "walls are 0.14 m thick, doors 0.81 m wide"
 };
 
+// Whether walls, doors and the plan as a whole have usual sizes where the drawing's unit is that long.
+[[nodiscard]] bool SizesHold(const DrawnSizes& sizes, double metres, const UnitOptions& options = {});
+[[nodiscard]] std::string DescribeSizes(const DrawnSizes& sizes, const LengthUnit& unit);  // "in mm the plan is 12 m long, walls 0.14 m thick"
 [[nodiscard]] DrawnSizes MeasureSizes(const Drawing& drawing);  // in the drawing's unit
 [[nodiscard]] UnitChoice ChooseUnit(const DrawnSizes& sizes, const std::optional<LengthUnit>& stated, const UnitOptions& options = {});
 

@@ -15,6 +15,8 @@ namespace {
 constexpr uint32_t kClosing = 0xfffffffeu;  // source of a line that the drawing does not have
 constexpr uint32_t kSingle = 0xfffffffdu;   // of the outline of a wall drawn as one line
 constexpr double kParallel = 0.97, kSquare = 0.35, kBeside = 0.05;
+constexpr double kSampled_m = 0.4;  // between points where a face is measured
+constexpr int kMaxSamples = 40;     // on one side of it
 constexpr double kOff_m = 1e-4;  // from a line into the face beside it
 
 struct WeightedLength {
@@ -178,9 +180,11 @@ class MassFinder {
       if (face == 0 || Map().FaceOf(h ^ 1u) == face) continue;
       const Eigen::Vector2d a = Map().FromPoint(h), d = Map().ToPoint(h) - a, n = Perp(d).normalized();
       const auto other = [&](uint32_t e) { return e != h / 2; };
-      for (const double at : {1.0 / 6, 0.5, 5.0 / 6}) {
-        const std::optional<RayHit> hit = Map().Cast(a + at * d + kOff_m * n, n, far_m, other);
-        out[face].push_back({hit ? hit->t_m : far_m, d.norm() / 3});
+      // Long sides more often: a wall with pillars along one side is as thick as it is between them.
+      const int samples = std::clamp(static_cast<int>(d.norm() / kSampled_m), 3, kMaxSamples);
+      for (int i = 0; i < samples; ++i) {
+        const std::optional<RayHit> hit = Map().Cast(a + (i + 0.5) / samples * d + kOff_m * n, n, far_m, other);
+        out[face].push_back({hit ? hit->t_m : far_m, d.norm() / samples});
       }
     }
     return out;

@@ -20,19 +20,6 @@ struct Place {
   int depth = 0;
 };
 
-LineRole RoleOf(LayerUse use) {
-  switch (use) {
-    case LayerUse::kWall: return LineRole::kWall;
-    case LayerUse::kColumn: return LineRole::kColumn;
-    case LayerUse::kDoor: return LineRole::kDoor;
-    case LayerUse::kWindow: return LineRole::kWindow;
-    case LayerUse::kOpening: return LineRole::kOpening;
-    default: return LineRole::kAny;
-  }
-}
-
-bool IsSymbolUse(LayerUse use) { return use == LayerUse::kDoor || use == LayerUse::kWindow || use == LayerUse::kOpening; }
-
 class Unfolder {
  public:
   Unfolder(const DxfDocument& document, const LayerRules& rules, const UnfoldOptions& options, DiagnosticSink& sink)

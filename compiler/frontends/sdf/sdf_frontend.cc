@@ -13,6 +13,7 @@
 #include "compiler/frontends/mesh/mesh_plan.h"
 #include "compiler/frontends/sdf/sdf_files.h"
 #include "compiler/frontends/sdf/sdf_shapes.h"
+#include "compiler/frontends/xml/xml.h"
 #include "compiler/geometry/sweep.h"
 
 namespace plumb::compiler {
@@ -51,17 +52,8 @@ class WorldReader {
   // False: an error was said.
   bool ReadText(const std::string& text, const fs::path& path, const Isometry3d& T, const std::string& name, int depth) {
     tinyxml2::XMLDocument document;
-    if (document.Parse(text.data(), text.size()) != tinyxml2::XML_SUCCESS) {
-      Emit(document.ErrorID() == tinyxml2::XML_ELEMENT_DEPTH_EXCEEDED ? DiagnosticKind::kXmlTooDeep : DiagnosticKind::kXmlSyntax,
-           document.ErrorLineNum(), path,
-           fmt::format("`{}` is no XML that can be read: {}", path.filename().string(), document.ErrorName()));
-      return false;
-    }
-    const XMLElement* sdf = document.FirstChildElement("sdf");
-    if (sdf == nullptr) {
-      Emit(DiagnosticKind::kXmlSyntax, 1, path, fmt::format("`{}` has no <sdf> element", path.filename().string()));
-      return false;
-    }
+    const XMLElement* sdf = ParseXml(text, path.filename().string(), "sdf", document, sink_);
+    if (sdf == nullptr) return false;
     folder_ = path.parent_path();
     for (const XMLElement* e = sdf->FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
       if (std::string_view(e->Name()) == "world") ReadChildren(*e, T, "", depth);
@@ -71,13 +63,6 @@ class WorldReader {
   }
 
  private:
-  void Emit(DiagnosticKind kind, int line, const fs::path& path, std::string message, std::string hint = {}) {
-    SourceLocation where;
-    where.line = static_cast<uint32_t>(std::max(0, line));
-    where.type = "XML of";
-    where.guid = path.filename().string();
-    sink_.Emit(kind, where, std::move(message), std::move(hint));
-  }
   void Emit(DiagnosticKind kind, const XMLElement& e, std::string message, std::string hint = {}) {
     SourceLocation where;
     where.line = static_cast<uint32_t>(std::max(0, e.GetLineNum()));

@@ -20,7 +20,7 @@ constexpr double kEyes_m = 1.0;            // spaces and doors are looked at thi
 constexpr double kAtWall_m = 0.35;         // spaces are drawn to finished faces, to structural faces or to the middle of walls
 constexpr double kEnclosedShare = 0.95;    // of the outline
 constexpr double kReach_m = 1.0;           // from the middle of a door to the space behind its wall
-constexpr double kMinCell_m2 = 0.5;         // smaller ones are cavities and the space between a leaf and its frame
+constexpr double kMinCell_m2 = 0.25;        // closets may be as small; smaller ones are cavities and the space between a leaf and its frame
 constexpr double kElongated = 2;           // sides of a rectangle whose longer one is a direction
 
 bool Blocks(const PlanElement& e) {

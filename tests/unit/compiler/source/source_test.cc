@@ -149,7 +149,8 @@ TEST(DetectFormat, TellsFormatsByTheirFirstBytes) {
   EXPECT_EQ(DetectFormat("  0\r\nSECTION\r\n  2\r\nHEADER"), SourceFormat::kDxf);
   EXPECT_EQ(DetectFormat("999\nmade by hand\n0\nSECTION\n"), SourceFormat::kDxf);
   EXPECT_EQ(DetectFormat("AC1032\0\0\0"), SourceFormat::kDwg);
-  EXPECT_EQ(DetectFormat("<?xml version=\"1.0\"?><svg/>"), SourceFormat::kXml);
+  EXPECT_EQ(DetectFormat("<?xml version=\"1.0\"?><svg/>"), SourceFormat::kSvg);
+  EXPECT_EQ(DetectFormat("<?xml version=\"1.0\"?><gbXML/>"), SourceFormat::kXml);
   EXPECT_EQ(DetectFormat(std::string_view("PK\x03\x04zip", 7)), SourceFormat::kZip);
   EXPECT_EQ(DetectFormat("ply\nformat ascii 1.0\n"), SourceFormat::kPly);
   EXPECT_EQ(DetectFormat("glTF\x02"), SourceFormat::kGltf);

@@ -110,7 +110,7 @@ TEST_F(DxfPlans, NestedMirroredAndRepeatedBlocksUnfold) {
 TEST_F(DxfPlans, MillimetresAndStatedUnitGiveTheSamePlan) {
   EXPECT_NEAR(GraphOf(TwoRooms("WALL", 1000)).rooms.at(0).area_m2, GraphOf(TwoRooms("WALL")).rooms.at(0).area_m2, 1e-3);
   CompileOptions options;
-  options.dxf.unit = "m";
+  options.drawing.unit = "m";
   DxfText lies = TwoRooms("WALL");
   lies.Header("$INSUNITS", 70, "4");
   EXPECT_TRUE(Says(CompileText(lies), DiagnosticKind::kUnitContradicted));
@@ -136,7 +136,7 @@ TEST_F(DxfPlans, HatchedWallsAreWallsHoweverThick) {
     dxf.Entity("SOLID", "WALL", {{10, n(x0)}, {20, n(y0)}, {11, n(x1)}, {21, n(y0)}, {12, n(x0)}, {22, n(y1)}, {13, n(x1)}, {23, n(y1)}});
   }
   CompileOptions options;
-  options.dxf.unit = "m";
+  options.drawing.unit = "m";
   const AGraph g = GraphOf(dxf, options);
   ASSERT_EQ(g.rooms.size(), 1u);
   EXPECT_NEAR(g.rooms[0].area_m2, 24, 0.01);
@@ -177,7 +177,7 @@ TEST_F(DxfPlans, SingleLinesAreGivenAThickness) {
   DxfText dxf;
   dxf.Header("$INSUNITS", 70, "6").Line("0", 0, 0, 5, 0).Line("0", 5, 0, 5, 4).Line("0", 5, 4, 0, 4).Line("0", 0, 4, 0, 0);
   CompileOptions options;
-  options.dxf.drawing.mass.single_line_thickness_m = 0.2;
+  options.drawing.plan.mass.single_line_thickness_m = 0.2;
   const AGraph g = GraphOf(dxf, options);
   ASSERT_EQ(g.rooms.size(), 1u);
   EXPECT_NEAR(g.rooms[0].area_m2, 4.8 * 3.8, 0.01);
@@ -192,7 +192,7 @@ TEST_F(DxfPlans, PlansSideBySideAreStoreysOrSheets) {
   ASSERT_EQ(both.rooms.size(), 2u);
   EXPECT_NEAR(both.rooms[0].center.x(), both.rooms[1].center.x(), 1e-3);
   CompileOptions options;
-  options.dxf.sheet = 2;
+  options.drawing.sheet = 2;
   EXPECT_EQ(GraphOf(dxf, options).storeys.size(), 1u);
 }
 
@@ -223,10 +223,10 @@ TEST_F(DxfPlans, BlocksThatMultiplyAreBounded) {
     dxf.Begin("B" + std::to_string(i)).Insert("0", "B" + std::to_string(i - 1), 0, 0, {{70, "30"}, {71, "30"}, {44, "2"}, {45, "2"}}).End();
   }
   dxf.Insert("0", "B11", 0, 0);
-  DxfOptions options;
+  DrawingFileOptions options;
   options.max_paths = 10'000;
   CompileOptions compile;
-  compile.dxf = options;
+  compile.drawing = options;
   const CompileResult result = CompileText(dxf, compile);
   EXPECT_FALSE(result.graph);
   EXPECT_TRUE(Says(result, DiagnosticKind::kPlanTooComplex));

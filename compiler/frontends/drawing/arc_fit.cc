@@ -1,0 +1,130 @@
+#include "compiler/frontends/drawing/arc_fit.h"
+
+#include <Eigen/LU>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "compiler/frontends/drawing/plane.h"
+
+namespace plumb::compiler {
+namespace {
+
+constexpr double kMinShare = 0.25;    // of a closed line's length that arcs must have to be told
+constexpr double kAllCurved = 0.9;    // ... to be all of it
+constexpr double kMinSweep_rad = 0.3;
+constexpr size_t kFine = 12;  // points
+
+double TurnAt(std::span<const Eigen::Vector2d> p, size_t i) {
+  const Eigen::Vector2d a = p[i] - p[i - 1], b = p[i + 1] - p[i];
+  return std::atan2(Cross(a, b), a.dot(b));
+}
+
+// The circle of least squares in x^2 + y^2 (Kasa), about the first point for precision.
+std::optional<Arc> FitCircle(std::span<const Eigen::Vector2d> points, double max_off_share) {
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  for (const auto& p : points) {
+    const Eigen::Vector2d q = p - points[0];
+    const Eigen::Vector3d row(q.x(), q.y(), 1);
+    normal += row * row.transpose();
+    right += q.squaredNorm() * row;
+  }
+  const Eigen::FullPivLU<Eigen::Matrix3d> solver(normal);
+  if (!solver.isInvertible()) return std::nullopt;
+  const Eigen::Vector3d x = solver.solve(right);
+  Arc out;
+  const Eigen::Vector2d center = 0.5 * x.head<2>();
+  out.center = points[0] + center;
+  out.radius_m = std::sqrt(std::max(0.0, x.z() + center.squaredNorm()));
+  if (!(out.radius_m > 0) || !std::isfinite(out.radius_m)) return std::nullopt;
+  for (const auto& p : points) {
+    if (std::abs((p - out.center).norm() - out.radius_m) > max_off_share * out.radius_m) return std::nullopt;
+  }
+  const Eigen::Vector2d start = points[0] - out.center;
+  out.start_rad = std::atan2(start.y(), start.x());
+  for (size_t i = 0; i + 1 < points.size(); ++i) {
+    const Eigen::Vector2d a = points[i] - out.center, b = points[i + 1] - out.center;
+    out.sweep_rad += std::atan2(Cross(a, b), a.dot(b));
+  }
+  return std::abs(out.sweep_rad) < kMinSweep_rad ? std::nullopt : std::optional(out);
+}
+
+// The last point up to which the line turns steadily to one side.
+size_t EndOfRun(std::span<const Eigen::Vector2d> p, size_t first, const ArcFitOptions& options) {
+  size_t last = first + 1;
+  double side = 0;
+  while (last + 1 < p.size()) {
+    const double turn = TurnAt(p, last), here = (p[last] - p[last - 1]).norm(), next = (p[last + 1] - p[last]).norm();
+    const bool alike = next < options.max_step_ratio * here && here < options.max_step_ratio * next;
+    if (!alike || std::abs(turn) > options.max_turn_rad || turn == 0 || turn * side < 0) break;
+    side = turn;
+    ++last;
+  }
+  return last;
+}
+
+double LengthOf(std::span<const Eigen::Vector2d> points) {
+  double out = 0;
+  for (size_t i = 0; i + 1 < points.size(); ++i) out += (points[i + 1] - points[i]).norm();
+  return out;
+}
+
+void AddPart(const DrawnPath& path, size_t first, size_t last, const Arc* arc, std::vector<DrawnPath>& out) {
+  if (first >= last) return;
+  DrawnPath part = path;
+  part.points.assign(path.points.begin() + static_cast<std::ptrdiff_t>(first), path.points.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+  part.curved = arc != nullptr;
+  if (arc != nullptr) part.arcs.push_back(*arc);
+  out.push_back(std::move(part));
+}
+
+}  // namespace
+
+std::vector<ArcRun> FindArcRuns(std::span<const Eigen::Vector2d> points, const ArcFitOptions& options) {
+  std::vector<ArcRun> out;
+  // Coordinates of few digits make the steps of a fine line turn to and fro: all of it may be an arc all the same.
+  if (points.size() > kFine) {
+    if (const auto arc = FitCircle(points, options.max_off_share)) return {{0, points.size() - 1, *arc}};
+  }
+  for (size_t first = 0; first + options.min_steps < points.size();) {
+    const size_t last = EndOfRun(points, first, options);
+    if (last - first >= options.min_steps) {
+      if (const auto arc = FitCircle(points.subspan(first, last - first + 1), options.max_off_share)) out.push_back({first, last, *arc});
+    }
+    first = last;
+  }
+  return out;
+}
+
+std::vector<DrawnPath> SplitAtArcs(DrawnPath path, const ArcFitOptions& options) {
+  std::vector<DrawnPath> out;
+  if (path.closed) {
+    std::vector<Eigen::Vector2d> ring = path.points;
+    ring.push_back(path.points.front());
+    double curved = 0;
+    for (const ArcRun& run : FindArcRuns(ring, options)) {
+      path.arcs.push_back(run.arc);
+      curved += std::abs(run.arc.sweep_rad) * run.arc.radius_m;
+    }
+    const double length = LengthOf(ring);
+    if (curved < kMinShare * length) path.arcs.clear();
+    path.curved = curved > kAllCurved * length;
+    out.push_back(std::move(path));
+    return out;
+  }
+  size_t at = 0;
+  for (const ArcRun& run : FindArcRuns(path.points, options)) {
+    AddPart(path, at, run.first, nullptr, out);
+    AddPart(path, run.first, run.last, &run.arc, out);
+    at = run.last;
+  }
+  if (at == 0) {
+    out.push_back(std::move(path));
+    return out;
+  }
+  AddPart(path, at, path.points.size() - 1, nullptr, out);
+  return out;
+}
+
+}  // namespace plumb::compiler

@@ -1,0 +1,20 @@
+// Hatching that was exported as lines: it is no wall, however close its lines are.
+#pragma once
+
+#include "compiler/frontends/drawing/drawing.h"
+
+namespace plumb::compiler {
+
+struct HatchingOptions {
+  size_t min_lines = 6;            // beside each other
+  double max_spacing_share = 0.03;  // of the drawing's extent
+  double max_difference = 0.08;    // of the spacing, between neighbours
+  double min_overlap = 0.5;        // of the shorter line, along it
+};
+
+// Takes out the lines of one layer that lie beside each other at equal distances, whatever the unit: hatching and the treads of stairs; with
+// them all others of their layer and direction, if they are most of these.
+// Returns how many. O(n log n) for drawings whose lines do not all lie over each other.
+size_t DropHatching(Drawing& drawing, const HatchingOptions& options = {});
+
+}  // namespace plumb::compiler

@@ -1,0 +1,388 @@
+#include "compiler/frontends/svg/svg_document.h"
+
+#include <fmt/format.h>
+#include <tinyxml2.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <cmath>
+#include <filesystem>
+
+#include "compiler/frontends/svg/svg_style.h"
+#include "compiler/frontends/svg/svg_values.h"
+#include "compiler/frontends/xml/xml.h"
+
+namespace plumb::compiler {
+namespace {
+
+using Eigen::Affine2d;
+using Eigen::Vector2d;
+using tinyxml2::XMLElement;
+
+constexpr double kLetter = 0.6;        // its width, in the text's height
+constexpr double kMiddle = 0.35;       // of capital letters above the base line
+constexpr double kMaxCoordinate = 1e9;
+constexpr std::string_view kLayerLabel = "inkscape:label";
+
+std::string_view AttributeOf(const XMLElement& e, const char* name) {
+  const char* value = e.Attribute(name);
+  return value == nullptr ? std::string_view() : std::string_view(value);
+}
+
+bool IsOneOf(std::string_view name, std::initializer_list<std::string_view> names) { return std::find(names.begin(), names.end(), name) != names.end(); }
+
+// `_x5F_` is how Illustrator writes `_` and whatever else an id must not have.
+std::string Unescaped(std::string_view id) {
+  std::string out;
+  for (size_t i = 0; i < id.size(); ++i) {
+    const size_t end = id.substr(i).starts_with("_x") ? id.find('_', i + 1) : std::string_view::npos;
+    uint32_t code = 0;
+    bool hex = end != std::string_view::npos && end > i + 2 && end - i <= 6;
+    for (size_t k = i + 2; hex && k < end; ++k) {
+      const auto c = static_cast<unsigned char>(id[k]);
+      hex = std::isxdigit(c) != 0;
+      code = 16 * code + static_cast<uint32_t>(std::isdigit(c) != 0 ? c - '0' : (c | 32) - 'a' + 10);
+    }
+    if (!hex || code >= 0x80) {
+      out += id[i];
+      continue;
+    }
+    out += static_cast<char>(code);
+    i = end;
+  }
+  return out;
+}
+
+// "path4109", "g12-3": a drawing program's own numbering.
+bool IsNumbered(std::string_view id) {
+  const size_t letters = id.find_first_of("0123456789-");
+  if (letters == std::string_view::npos || id.find_first_not_of("0123456789-", letters) != std::string_view::npos) return false;
+  return IsOneOf(id.substr(0, letters), {"g", "path", "rect", "line", "polyline", "polygon", "circle", "ellipse", "text", "tspan", "use", "svg", "symbol", "image", "layer"});
+}
+
+std::vector<std::string> Words(std::string_view text) {
+  std::vector<std::string> out;
+  for (size_t at = text.find_first_not_of(" \t\r\n"); at != std::string_view::npos; at = text.find_first_not_of(" \t\r\n", at)) {
+    const size_t end = std::min(text.find_first_of(" \t\r\n", at), text.size());
+    out.emplace_back(text.substr(at, end - at));
+    at = end;
+  }
+  return out;
+}
+
+struct Place {
+  Affine2d T = Affine2d::Identity();  // from user units here to those of the document, y up
+  Vector2d viewport = Vector2d::Zero();
+  SvgStyle style;
+  uint32_t node = kNoSvgNode;
+  std::string_view id;  // of the innermost element that has one
+  Eigen::AlignedBox2d clip = Eigen::AlignedBox2d(Vector2d::Constant(-2 * kMaxCoordinate), Vector2d::Constant(2 * kMaxCoordinate));
+  int uses = 0;
+};
+
+// The part of a straight line within `box`; what is not straight stays whole as long as some of it may be within. False: nothing is.
+bool Clip(const Eigen::AlignedBox2d& box, SvgOutline& outline) {
+  Eigen::AlignedBox2d own;
+  for (const Vector2d& p : outline.points) own.extend(p);
+  if (box.contains(own)) return true;
+  if (!box.intersects(own)) return false;
+  if (outline.points.size() != 2) return true;
+  const Vector2d a = outline.points[0], d = outline.points[1] - a;
+  double from = 0, to = 1;
+  for (int k = 0; k < 2; ++k) {
+    if (d[k] == 0) continue;
+    const auto [lo, hi] = std::minmax({(box.min()[k] - a[k]) / d[k], (box.max()[k] - a[k]) / d[k]});
+    from = std::max(from, lo);
+    to = std::min(to, hi);
+  }
+  if (from >= to) return false;
+  outline.points = {a + from * d, a + to * d};
+  return true;
+}
+
+class Reader {
+ public:
+  Reader(const Source& source, const SvgReadOptions& options, DiagnosticSink& sink) : source_(source), options_(options), sink_(sink) {}
+
+  std::optional<SvgDocument> Run() {
+    const XMLElement* root = ParseXml(source_.bytes, std::filesystem::path(source_.path).filename().string(), "svg", document_, sink_);
+    if (root == nullptr) return std::nullopt;
+    Collect(*root);
+    Place place;
+    place.T.linear() << 1, 0, 0, -1;
+    place.viewport = RootSize(*root);
+    Inherit(*root, place);
+    VisitChildren(*root, place);
+    if (!full_) return std::move(out_);
+    sink_.Emit(DiagnosticKind::kPlanTooComplex, {}, fmt::format("the drawing has more than {} points, or more than {} elements with those that are used again", options_.max_points, options_.max_elements));
+    return std::nullopt;
+  }
+
+ private:
+  // User units are those of the viewBox: the size only tells how long they are on paper.
+  Vector2d RootSize(const XMLElement& root) {
+    const auto box = ParseSvgViewBox(AttributeOf(root, "viewBox"));
+    const std::string_view width = AttributeOf(root, "width");
+    if (const auto width_m = SvgPhysicalLength_m(width); width_m && *width_m > 0) {
+      const double units = box ? box->width : SvgLength(width, 0).value_or(0);
+      if (units > 0) out_.unit_on_paper_m = *width_m / units;
+    }
+    if (box) return {box->width, box->height};
+    return {SvgLength(width, 0).value_or(0), SvgLength(AttributeOf(root, "height"), 0).value_or(0)};
+  }
+
+  void Collect(const XMLElement& e) {
+    if (const std::string_view id = AttributeOf(e, "id"); !id.empty()) by_id_.emplace(id, &e);
+    if (LocalName(e) == "style") {
+      for (const auto* n = e.FirstChild(); n != nullptr; n = n->NextSibling()) {
+        if (n->ToText() != nullptr) sheet_.Add(n->Value());
+      }
+    }
+    for (const XMLElement* c = e.FirstChildElement(); c != nullptr; c = c->NextSiblingElement()) Collect(*c);
+  }
+
+  // False: the element and what it contains are not displayed.
+  bool Inherit(const XMLElement& e, Place& place) {
+    const std::vector<std::string> classes = Words(AttributeOf(e, "class"));
+    const std::string_view id = AttributeOf(e, "id");
+    bool shown = true;
+    for (const auto* a = e.FirstAttribute(); a != nullptr; a = a->Next()) shown &= ApplySvgDeclaration(a->Name(), a->Value(), place.style);
+    for (const SvgDeclaration* d : sheet_.For(LocalName(e), classes, id)) shown &= ApplySvgDeclaration(d->property, d->value, place.style);
+    for (const SvgDeclaration& d : ParseSvgDeclarations(AttributeOf(e, "style"))) shown &= ApplySvgDeclaration(d.property, d.value, place.style);
+    if (!id.empty()) place.id = id;
+    SvgNode node;
+    node.parent = place.node;
+    const std::string_view label = AttributeOf(e, kLayerLabel.data()), data_name = AttributeOf(e, "data-name");
+    if (!label.empty()) node.names.emplace_back(label);
+    if (!data_name.empty()) node.names.emplace_back(data_name);
+    node.names.insert(node.names.end(), classes.begin(), classes.end());
+    if (!id.empty() && !IsNumbered(id)) node.names.push_back(Unescaped(id));
+    if (!shown && AttributeOf(e, "inkscape:groupmode") == "layer") out_.hidden_layers.insert(node.names.empty() ? std::string(id) : node.names.front());
+    if (node.names.empty()) return shown;
+    place.node = static_cast<uint32_t>(out_.nodes.size());
+    out_.nodes.push_back(std::move(node));
+    return shown;
+  }
+
+  void VisitChildren(const XMLElement& parent, const Place& place) {
+    for (const XMLElement* e = parent.FirstChildElement(); e != nullptr && !full_; e = e->NextSiblingElement()) Visit(*e, place);
+  }
+
+  void Visit(const XMLElement& e, Place place) {
+    if (++elements_ > options_.max_elements) full_ = true;
+    const std::string_view kind = LocalName(e);
+    if (full_ || !IsOneOf(kind, {"g", "a", "switch", "svg", "use", "path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "text", "image", "foreignObject"}))
+      return;
+    if (!AttributeOf(e, "requiredExtensions").empty() || !Inherit(e, place)) return;
+    if (const std::string_view transform = AttributeOf(e, "transform"); !transform.empty()) {
+      const auto T = SvgTransform(transform);
+      if (!T) return Bad(e, "its transform is none");
+      place.T = place.T * *T;
+    }
+    NarrowClip(e, place);
+    if (IsOneOf(kind, {"g", "a", "switch"})) return VisitChildren(e, place);
+    if (kind == "svg") return VisitViewport(e, e, place);
+    if (kind == "use") return VisitUse(e, place);
+    if (kind == "text") return AddTexts(e, place);
+    if (kind == "image" || kind == "foreignObject") {
+      ++out_.not_read[std::string(kind)];
+      return;
+    }
+    AddShape(e, kind, place);
+  }
+
+  // To the box around its clip path, which is what drawing programs cut patterns with.
+  void NarrowClip(const XMLElement& e, Place& place) {
+    std::string_view reference = AttributeOf(e, "clip-path");
+    if (!reference.starts_with("url(#") || !reference.ends_with(")")) return;
+    const auto found = by_id_.find(reference.substr(5, reference.size() - 6));
+    if (found == by_id_.end() || AttributeOf(*found->second, "clipPathUnits") == "objectBoundingBox") return;
+    const Affine2d T = place.T * SvgTransform(AttributeOf(*found->second, "transform")).value_or(Affine2d::Identity());
+    Eigen::AlignedBox2d box;
+    for (const XMLElement* c = found->second->FirstChildElement(); c != nullptr; c = c->NextSiblingElement()) {
+      const Affine2d T_child = T * SvgTransform(AttributeOf(*c, "transform")).value_or(Affine2d::Identity());
+      for (const SvgOutline& outline : OutlinesOf(*c, LocalName(*c), place)) {
+        for (const Vector2d& p : outline.points) box.extend(T_child * p);
+      }
+    }
+    if (!box.isEmpty()) place.clip = place.clip.intersection(box);
+  }
+
+  double LengthOf(const XMLElement& e, const char* name, double whole, double otherwise = 0) const {
+    return SvgLength(AttributeOf(e, name), whole).value_or(otherwise);
+  }
+
+  // Of a nested <svg>, or of a <symbol> where `use` places it.
+  void VisitViewport(const XMLElement& content, const XMLElement& use, Place place) {
+    const auto box = ParseSvgViewBox(AttributeOf(content, "viewBox"));
+    const auto size = [&](const char* name, double whole) {
+      return LengthOf(use, name, whole, LengthOf(content, name, whole, whole));
+    };
+    const Vector2d viewport(size("width", place.viewport.x()), size("height", place.viewport.y()));
+    if (&content == &use) place.T = place.T * Eigen::Translation2d(LengthOf(use, "x", place.viewport.x()), LengthOf(use, "y", place.viewport.y()));
+    place.viewport = box ? Vector2d(box->width, box->height) : viewport;
+    if (box && viewport.minCoeff() > 0) place.T = place.T * SvgViewport(*box, viewport.x(), viewport.y(), AttributeOf(content, "preserveAspectRatio"));
+    VisitChildren(content, place);
+  }
+
+  void VisitUse(const XMLElement& use, Place place) {
+    std::string_view href = AttributeOf(use, "href");
+    if (href.empty()) href = AttributeOf(use, "xlink:href");
+    const auto found = href.starts_with('#') ? by_id_.find(href.substr(1)) : by_id_.end();
+    const auto unresolved = [&](const char* why) {
+      sink_.Emit(DiagnosticKind::kUseUnresolved, LocationOf(use, place), fmt::format("`{}` {}; it is left out there", href, why));
+    };
+    if (found == by_id_.end()) return unresolved("is no element of the file");
+    const XMLElement& target = *found->second;
+    if (std::find(open_.begin(), open_.end(), &target) != open_.end()) return unresolved("uses itself");
+    if (place.uses >= options_.max_depth) return unresolved("is used by what is used, too many times over");
+    ++place.uses;
+    place.T = place.T * Eigen::Translation2d(LengthOf(use, "x", place.viewport.x()), LengthOf(use, "y", place.viewport.y()));
+    open_.push_back(&target);
+    if (LocalName(target) == "symbol" || LocalName(target) == "svg") {
+      if (Inherit(target, place)) VisitViewport(target, use, place);
+    } else {
+      Visit(target, place);
+    }
+    open_.pop_back();
+  }
+
+  SourceLocation LocationOf(const XMLElement& e, const Place& place) const {
+    SourceLocation out;
+    out.line = static_cast<uint32_t>(std::max(0, e.GetLineNum()));
+    out.guid = std::string(place.id);
+    out.type = std::string(LocalName(e));
+    if (place.node != kNoSvgNode) out.type += fmt::format(" in `{}`", fmt::join(out_.nodes[place.node].names, " "));
+    return out;
+  }
+
+  void Bad(const XMLElement& e, const char* why) {
+    SourceLocation where;
+    where.line = static_cast<uint32_t>(std::max(0, e.GetLineNum()));
+    where.type = std::string(LocalName(e));
+    where.guid = std::string(AttributeOf(e, "id"));
+    sink_.Emit(DiagnosticKind::kXmlBadValue, where, fmt::format("<{}> is left out: {}", LocalName(e), why));
+  }
+
+  std::vector<SvgOutline> OutlinesOf(const XMLElement& e, std::string_view kind, const Place& place) {
+    const double w = place.viewport.x(), h = place.viewport.y(), diagonal = std::sqrt(0.5) * place.viewport.norm();
+    if (kind == "line") return {{{{LengthOf(e, "x1", w), LengthOf(e, "y1", h)}, {LengthOf(e, "x2", w), LengthOf(e, "y2", h)}}, false}};
+    if (kind == "circle") {
+      const double r = LengthOf(e, "r", diagonal);
+      return r > 0 ? std::vector{SvgEllipse(LengthOf(e, "cx", w), LengthOf(e, "cy", h), r, r)} : std::vector<SvgOutline>();
+    }
+    if (kind == "ellipse") {
+      const double rx = LengthOf(e, "rx", w), ry = LengthOf(e, "ry", h);
+      return rx > 0 && ry > 0 ? std::vector{SvgEllipse(LengthOf(e, "cx", w), LengthOf(e, "cy", h), rx, ry)} : std::vector<SvgOutline>();
+    }
+    if (kind == "rect") {
+      const double width = LengthOf(e, "width", w), height = LengthOf(e, "height", h), rx = LengthOf(e, "rx", w, LengthOf(e, "ry", h));
+      if (!(width > 0 && height > 0)) return {};
+      return {SvgRect(LengthOf(e, "x", w), LengthOf(e, "y", h), width, height, rx, LengthOf(e, "ry", h, rx))};
+    }
+    if (kind == "path") {
+      SvgPathData path = ParseSvgPath(AttributeOf(e, "d"), options_.max_points - std::min(points_, options_.max_points));
+      if (path.faulty) Emit(e, place, "its path data has a fault; it is read up to there");
+      return std::move(path.outlines);
+    }
+    const std::vector<double> numbers = SvgNumbers(AttributeOf(e, "points"));
+    SvgOutline out;
+    for (size_t i = 0; i + 1 < numbers.size(); i += 2) out.points.emplace_back(numbers[i], numbers[i + 1]);
+    out.closed = kind == "polygon" && out.points.size() > 2;
+    if (out.points.size() > 2 && out.points.front() == out.points.back()) out.points.pop_back(), out.closed = true;
+    return out.points.size() > 1 ? std::vector{std::move(out)} : std::vector<SvgOutline>();
+  }
+
+  void Emit(const XMLElement& e, const Place& place, const char* what) {
+    sink_.Emit(DiagnosticKind::kXmlBadValue, LocationOf(e, place), fmt::format("<{}>: {}", LocalName(e), what));
+  }
+
+  void AddShape(const XMLElement& e, std::string_view kind, const Place& place) {
+    SvgShape shape;
+    shape.strokes = place.style.strokes();
+    shape.fills = place.style.fills() && kind != "line";
+    if (!shape.strokes && !shape.fills) return;
+    shape.outlines = OutlinesOf(e, kind, place);
+    for (SvgOutline& outline : shape.outlines) {
+      points_ += outline.points.size();
+      for (Vector2d& p : outline.points) {
+        p = place.T * p;
+        if (!p.allFinite() || p.cwiseAbs().maxCoeff() > kMaxCoordinate) return Bad(e, "its coordinates are beyond reason");
+      }
+    }
+    full_ |= points_ >= options_.max_points;
+    std::erase_if(shape.outlines, [&](SvgOutline& outline) { return !Clip(place.clip, outline); });
+    if (shape.outlines.empty()) return;
+    shape.node = place.node;
+    shape.fill_luminance = place.style.fill.luminance();
+    shape.stroke_width = shape.strokes ? place.style.stroke_width * ScaleOf(place) : 0;
+    shape.stroke_rgb = place.style.stroke.rgb;
+    shape.location = LocationOf(e, place);
+    out_.shapes.push_back(std::move(shape));
+  }
+
+  static double ScaleOf(const Place& place) { return std::sqrt(std::abs(place.T.linear().determinant())); }
+
+  struct Line {
+    std::string text;
+    Vector2d at = Vector2d::Zero();
+    double width = 0;  // stated by the places of its letters
+  };
+
+  // Each part with a place of its own is a text of its own.
+  void AddTexts(const XMLElement& text, const Place& place) {
+    Line line;
+    ReadLine(text, place, line);
+    Flush(text, place, line);
+  }
+
+  void ReadLine(const XMLElement& e, const Place& place, Line& line) {
+    const std::vector<double> x = SvgNumbers(AttributeOf(e, "x")), y = SvgNumbers(AttributeOf(e, "y")), dy = SvgNumbers(AttributeOf(e, "dy"));
+    if (!x.empty() || !y.empty() || !dy.empty()) {
+      Flush(e, place, line);
+      if (!x.empty()) line.at.x() = x.front(), line.width = x.size() > 1 ? x.back() - x.front() + kLetter * place.style.font_size : 0;
+      if (!y.empty()) line.at.y() = y.front();
+      if (!dy.empty()) line.at.y() += AttributeOf(e, "dy").find("em") != std::string_view::npos ? dy.front() * place.style.font_size : dy.front();
+    }
+    for (const auto* n = e.FirstChild(); n != nullptr; n = n->NextSibling()) {
+      if (n->ToText() != nullptr) line.text += n->Value();
+      const XMLElement* child = n->ToElement();
+      if (child == nullptr || LocalName(*child) != "tspan") continue;
+      Place inner = place;
+      if (!Inherit(*child, inner)) continue;
+      ReadLine(*child, inner, line);
+      if (child->Attribute("x") != nullptr || child->Attribute("y") != nullptr) Flush(*child, inner, line);
+    }
+  }
+
+  void Flush(const XMLElement& e, const Place& place, Line& line) {
+    const std::string text = fmt::format("{}", fmt::join(Words(line.text), " "));
+    line.text.clear();
+    const double size = place.style.font_size;
+    const double width = line.width > 0 ? line.width : kLetter * size * static_cast<double>(text.size());
+    const Vector2d at = place.T * (line.at + Vector2d((0.5 - place.style.text_anchor) * width, -kMiddle * size));
+    line.width = 0;
+    if (text.empty() || !place.style.visible || !at.allFinite()) return;
+    out_.texts.push_back({text, at, size * ScaleOf(place), place.node, LocationOf(e, place)});
+  }
+
+  const Source& source_;
+  const SvgReadOptions& options_;
+  DiagnosticSink& sink_;
+  tinyxml2::XMLDocument document_;
+  SvgStyleSheet sheet_;
+  std::map<std::string_view, const XMLElement*> by_id_;
+  std::vector<const XMLElement*> open_;  // what is used, down to here
+  size_t elements_ = 0, points_ = 0;
+  bool full_ = false;
+  SvgDocument out_;
+};
+
+}  // namespace
+
+std::optional<SvgDocument> ReadSvgDocument(const Source& source, const SvgReadOptions& options, DiagnosticSink& sink) {
+  return Reader(source, options, sink).Run();
+}
+
+}  // namespace plumb::compiler

@@ -1,0 +1,31 @@
+#include "tools/plumb/outputs.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "schema/files.h"
+#include "tests/support/temporary_folder.h"
+#include "tools/plumb/flag_names.h"
+
+namespace plumb::tools {
+namespace {
+
+TEST(CheckOutputs, RefusesWhatIsReadByWhateverPath) {
+  const test::TemporaryFolder folder;
+  const std::string plan = folder.path() + "/plan.svg", other = folder.path() + "/other.svg";
+  ASSERT_TRUE(WriteFileAtomically(plan, std::string_view("<svg/>")));
+  const std::string round = folder.path() + "/../" + std::filesystem::path(folder.path()).filename().string() + "/plan.svg";
+  const auto refused = CheckOutputs({{"--output", other}, {"--svg", round}}, {plan});
+  ASSERT_FALSE(refused);
+  EXPECT_NE(refused.error().message.find("--svg"), std::string::npos);
+  EXPECT_TRUE(CheckOutputs({{"--output", other}, {"--svg", ""}}, {plan}));
+}
+
+TEST(InFlags, NamesTheFlagOfAField) {
+  EXPECT_EQ(InFlags("DrawingFileOptions.scale_m = -1; must be in [0, 10000)"), "--scale -1; must be in [0, 10000)");
+  EXPECT_EQ(InFlags("RoomOptions.min_width_m = -1; must not be negative"), "RoomOptions.min_width_m = -1; must not be negative");
+}
+
+}  // namespace
+}  // namespace plumb::tools

@@ -251,7 +251,9 @@ ScanVerdict Localizer::AddScan(const Scan& scan, const std::optional<Odometry::G
   }
   if (registered.restarted) impl_->StartOver();
   impl_->CountFailures(registered.ok || registered.restarted);
-  const bool grew = (registered.ok || registered.restarted) && impl_->mapper.AddScan(registered.deskewed, registered.T_odom_lidar);
+  const bool grew = (registered.ok || registered.restarted) &&
+                    impl_->mapper.AddScan(registered.deskewed, registered.T_odom_lidar,
+                                          registered.planar ? std::optional(registered.step_covariance) : std::nullopt);
   out.timing.push_back({"mapping", watch.Lap()});
   if (grew) impl_->UpdateGraph(out.timing);
   if (registered.ok || registered.restarted) impl_->Remember(scan.stamp_s, registered.T_odom_lidar);

@@ -28,13 +28,16 @@ SurfelMapOptions WindowSurfels(const MapperOptions& options) {
 KeyframeWindow::KeyframeWindow(const MapperOptions& options, double stamp_s, const Eigen::Isometry3d& T_odom_kf)
     : options_(options), stamp_s_(stamp_s), T_odom_kf_(T_odom_kf), surfels_(WindowSurfels(options)) {}
 
-void KeyframeWindow::Add(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar) {
+void KeyframeWindow::Add(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar, bool planar) {
+  planar_ = planar;
   const PreparedScan prepared = PrepareScan(deskewed, kSpacing_m, options_.min_range_m, options_.max_range_m);
   const Eigen::Isometry3d T_kf_lidar = T_odom_kf_.inverse() * T_odom_lidar;
   View view;
   view.sensor = T_kf_lidar.translation();
-  for (const SweepPoint& point : prepared.points) surfels_.Insert(T_kf_lidar * point.p, view.sensor);
-  surfels_.EndScan();
+  if (!planar) {
+    for (const SweepPoint& point : prepared.points) surfels_.Insert(T_kf_lidar * point.p, view.sensor);
+    surfels_.EndScan();
+  }
   if (num_points_ + prepared.scan.points.size() > kMaxWindowPoints) return;
   num_points_ += prepared.scan.points.size();
   const Eigen::Isometry3f T = T_kf_lidar.cast<float>();

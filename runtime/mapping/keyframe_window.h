@@ -22,12 +22,15 @@ class KeyframeWindow {
   // Opens at the lidar's pose T_odom_kf, which becomes the keyframe's.
   KeyframeWindow(const MapperOptions& options, double stamp_s, const Eigen::Isometry3d& T_odom_kf);
 
-  void Add(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar);
+  // `planar`: of a planar laser, whose scans make no surfels.
+  void Add(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar, bool planar);
 
   [[nodiscard]] double stamp_s() const { return stamp_s_; }
   [[nodiscard]] const Eigen::Isometry3d& T_odom_kf() const { return T_odom_kf_; }
   [[nodiscard]] const std::vector<View>& views() const { return views_; }
   [[nodiscard]] const SurfelMap& surfels() const { return surfels_; }
+
+  [[nodiscard]] bool planar() const { return planar_; }
 
   // At most one point per voxel and max_keyframe_points, keyframe frame.
   [[nodiscard]] std::vector<Eigen::Vector3f> ThinnedPoints() const;
@@ -39,6 +42,7 @@ class KeyframeWindow {
   std::vector<View> views_;
   size_t num_points_ = 0;
   SurfelMap surfels_;
+  bool planar_ = false;
 };
 
 }  // namespace plumb::runtime

@@ -5,13 +5,17 @@
 #include <cmath>
 #include <limits>
 
+#include "runtime/mapping/planar_segmentation.h"
 #include "runtime/mapping/segmentation.h"
+#include "runtime/odometry/planar/planar_scan.h"
 
 namespace plumb::runtime {
 namespace {
 
-// A keyframe this close to the last one tells nothing new.
-constexpr double kStandingStill_m = 0.05, kStandingStill_rad = 0.026;
+constexpr double kPointShare = 2.0 / 3.0;    // of a point's noise in the spread about a wall
+constexpr double kPlanarSpacing_m = 0.04;    // of the points that planar scans are matched by
+constexpr double kSettled_m = 0.005, kSettled_rad = 0.001;  // a solve that moves no keyframe by more changes nothing
+constexpr double kStandingStill_m = 0.05, kStandingStill_rad = 0.026;  // a keyframe this close to the last one tells nothing new
 
 struct Distance {
   double m, rad;
@@ -35,6 +39,7 @@ std::string MapperOptions::Check() const {
   if (!(max_range_m > min_range_m)) return bad("max_range_m", max_range_m, "> min_range_m");
   if (!(plane_sigma_m >= 0.002 && plane_sigma_m <= 0.2)) return bad("plane_sigma_m", plane_sigma_m, "in [0.002, 0.2]");
   if (min_segment_points < 3) return bad("min_segment_points", min_segment_points, ">= 3");
+  if (min_line_points < 3) return bad("min_line_points", min_line_points, ">= 3");
   if (!(min_segment_extent_m >= 0)) return bad("min_segment_extent_m", min_segment_extent_m, ">= 0");
   if (!(merge_distance_m > 0)) return bad("merge_distance_m", merge_distance_m, "> 0");
   if (!(merge_angle_rad > 0 && merge_angle_rad < 0.5)) return bad("merge_angle_rad", merge_angle_rad, "in (0, 0.5)");
@@ -42,12 +47,14 @@ std::string MapperOptions::Check() const {
   return {};
 }
 
-Mapper::Mapper(const MapperOptions& options) : options_(options) {}
+Mapper::Mapper(const MapperOptions& options) : options_(options), loops_(kPointShare * options.plane_sigma_m) {}
 
-bool Mapper::AddScan(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar) {
+bool Mapper::AddScan(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar, const std::optional<Eigen::Matrix3d>& planar_step) {
   const bool grown = window_ && WindowIsFull(deskewed.stamp_s, T_odom_lidar) && CloseWindow();
+  if (planar_step) loops_.Move(Leveled(T_odom_lidar).pose, *planar_step);
+  if (!window_ && planar_step) loops_.Open();
   if (!window_) window_.emplace(options_, deskewed.stamp_s, T_odom_lidar);
-  window_->Add(deskewed, T_odom_lidar);
+  window_->Add(deskewed, T_odom_lidar, planar_step.has_value());
   return grown;
 }
 
@@ -75,9 +82,35 @@ bool Mapper::CloseWindow() {
   keyframe.points = window.ThinnedPoints();
   if (keyframe.points.empty()) return false;
   graph_.keyframes.push_back(std::move(keyframe));
-  for (const Segment& segment : ExtractSegments(window, options_)) AddSegment(segment, graph_.keyframes.back());
+  const std::vector<Segment> segments = window.planar() ? ExtractLineSegments(window, options_) : ExtractSegments(window, options_);
+  for (const Segment& segment : segments) AddSegment(segment, graph_.keyframes.back());
   MergeDuplicates();
+  if (window.planar()) CloseLoops(window);
   return true;
+}
+
+// After a planar keyframe.
+void Mapper::CloseLoops(const KeyframeWindow& window) {
+  Scan seen;
+  seen.points = window.views().front().points;
+  const PreparedScan prepared = PrepareScan(seen, kPlanarSpacing_m, options_.min_range_m, options_.max_range_m);
+  std::vector<LeveledPose> poses;
+  std::vector<Pose2> planar;
+  for (const Keyframe& keyframe : graph_.keyframes) {
+    poses.push_back(Leveled(keyframe.T_map_kf));
+    planar.push_back(poses.back().pose);
+  }
+  if (!loops_.Add(MakePlanarScan(prepared, poses.back().leveling, {}, kPointShare * options_.plane_sigma_m), planar)) return;
+  const std::vector<Pose2> solved = SolvePoseGraph(planar, loops_.edges());
+  bool settled = true;
+  for (size_t i = 0; i < solved.size(); ++i) {
+    const Pose2 moved = Between(planar[i], solved[i]);
+    settled = settled && moved.t_m.norm() <= kSettled_m && std::abs(moved.yaw_rad) <= kSettled_rad;
+    poses[i].pose = solved[i];
+  }
+  if (settled) return;
+  for (size_t i = 0; i < solved.size(); ++i) graph_.keyframes[i].T_map_kf = poses[i].Lifted();
+  OnPosesChanged();
 }
 
 void Mapper::AddSegment(const Segment& segment, const Keyframe& keyframe) {

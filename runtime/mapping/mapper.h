@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "runtime/mapping/keyframe_window.h"
+#include "runtime/mapping/loop_closure.h"
 #include "runtime/mapping/map_surfaces.h"
 #include "runtime/mapping/mapper_options.h"
 #include "runtime/mapping/sgraph.h"
@@ -21,7 +22,9 @@ class Mapper {
   explicit Mapper(const MapperOptions& options = {});
 
   // Adds one deskewed scan, points in the lidar frame at its stamp. True if it closed a keyframe, i.e. the graph has grown.
-  bool AddScan(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar);
+  // `planar_step`: of a planar laser (OdometryResult::planar), the covariance of (x, y, yaw) of the motion since the last scan. Its scans see walls
+  // only, as lines (planar_segmentation.h), and the loops they make are closed here (loop_closure.h).
+  bool AddScan(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar, const std::optional<Eigen::Matrix3d>& planar_step = std::nullopt);
   // Makes a keyframe of what AddScan() has gathered since the last one, at a recording's end. True if the graph has grown.
   bool Flush();
 
@@ -40,6 +43,7 @@ class Mapper {
   bool CloseWindow();
   void AddSegment(const Segment& segment, const Keyframe& keyframe);
   void Empty(size_t i);
+  void CloseLoops(const KeyframeWindow& window);
   void MergeDuplicates();
 
   MapperOptions options_;
@@ -47,6 +51,7 @@ class Mapper {
   Eigen::Isometry3d T_map_odom_ = Eigen::Isometry3d::Identity();
   std::vector<SurfaceTrack> tracks_;  // of each surface
   std::optional<KeyframeWindow> window_;
+  LoopCloser loops_;
 };
 
 }  // namespace plumb::runtime

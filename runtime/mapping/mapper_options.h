@@ -14,6 +14,7 @@ struct MapperOptions {
   double min_range_m = 0.4, max_range_m = 60.0;
   double plane_sigma_m = 0.03;           // expected spread of points about a wall; the inlier band is 3 sigma
   int min_segment_points = 50;
+  int min_line_points = 10;              // of a wall segment in planar scans
   double min_segment_extent_m = 0.4;
   double merge_distance_m = 0.035;        // same surface: within this at both ends of the overlap (a door leaf lies 5 cm behind its wall), ...
   double merge_angle_rad = 0.10;         // ... and this in direction (long ones less: 3 cm over the shorter's length, but at least 0.02), ...

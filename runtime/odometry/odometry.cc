@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "runtime/odometry/leveling.h"
+#include "runtime/odometry/planar/planar_odometry.h"
+#include "runtime/odometry/planar/planar_scan.h"
 #include "runtime/odometry/registration.h"
 #include "runtime/odometry/scan_preparation.h"
 #include "runtime/odometry/surfel_map.h"
@@ -30,6 +32,7 @@ const Eigen::Vector3d kAcceleration_mps2(3.0, 3.0, 1.0), kTurning_radps2(1.5, 1.
 constexpr double kGivenScaleSigma = 0.1;        // a given odometry's relative error
 constexpr double kMaxGivenSpeed_mps = 30.0;     // beyond, the given odometry has jumped
 constexpr double kVerticalDamping = 0.5;        // robots move along the floor: climbing at this rate dies out where no plane measures it
+constexpr double kPlanarSpacing_m = 0.04;       // of a planar laser's few points
 constexpr double kBootstrapSpeed_mps = 0.03, kBootstrapTurn_radps = 0.03;
 
 struct Twist {
@@ -111,6 +114,7 @@ struct Odometry::Impl {
   void LearnPredictionError(const SweepMotion& predicted, const SweepMotion& actual);
 
   OdometryOptions options;
+  std::optional<PlanarOdometry> planar;  // of a planar laser; then nothing below is used
   SurfelMap map;
   std::optional<PreparedScan> first;  // until the second scan tells how fast the first one moved
   bool started = false;
@@ -289,8 +293,13 @@ Odometry::~Odometry() = default;
 OdometryResult Odometry::Register(const Scan& scan, const std::optional<GivenMotion>& given_motion) {
   Impl& s = *impl_;
   OdometryResult result;
-  const PreparedScan prepared = PrepareScan(scan, s.options.scan_spacing_m, s.options.min_range_m, s.options.max_range_m);
+  if (!s.started && !s.planar) {
+    if (const std::optional<Eigen::Vector3d> normal = ScanPlaneNormal(scan)) s.planar.emplace(s.options, *normal);
+  }
+  const double spacing_m = s.planar ? std::min(kPlanarSpacing_m, s.options.scan_spacing_m) : s.options.scan_spacing_m;
+  const PreparedScan prepared = PrepareScan(scan, spacing_m, s.options.min_range_m, s.options.max_range_m);
   const std::optional<GivenMotion> given = Plausible(given_motion, prepared.sweep_s);
+  if (s.planar) return s.planar->Register(prepared, given);
   result.timed = prepared.sweep_s > 0;
   const bool too_few = static_cast<int>(prepared.points.size()) < kMinFirstPoints;
   if (!s.started) {

@@ -2,6 +2,7 @@
 //
 // The poses at a sweep's start and end are estimated together (registration.h), so turning and braking within a sweep are measured, not
 // assumed. The map keeps everything up to max_voxels: a robot that comes back is where it was. The first scan levels the frame (leveling.h).
+// Recordings of a planar laser, told by their first scan, go through planar/planar_odometry.h instead, which takes the scan plane as level.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -27,6 +28,7 @@ struct OdometryResult {
   bool ok = false;               // false: pose is a prediction only
   // A second of scans found no place on the map: a new map begins with this one, at a predicted pose. What was mapped before is not tied to it.
   bool restarted = false;
+  bool planar = false;           // the sensor is a planar laser
   bool timed = false;            // per-point times were usable; else points are taken to be of the stamp, "deskew off"
   // At the scan's stamp. odom: origin and yaw of the first scan, z up (from floor, ceiling or walls in the first scan, else its own z axis).
   Eigen::Isometry3d T_odom_lidar = Eigen::Isometry3d::Identity();
@@ -34,6 +36,8 @@ struct OdometryResult {
   int iterations = 0;
   int num_inliers = 0;
   double rms_m = 0;              // of inlier point-to-plane residuals
+  // Planar lasers: covariance of (x, y, yaw) of the motion since the last scan, in the levelled lidar frame of that time.
+  Eigen::Matrix3d step_covariance = Eigen::Matrix3d::Zero();
 };
 
 class Odometry {

@@ -3,8 +3,11 @@
 //   odometry_benchmark REC              a recording folder; compares with REC/truth.tum if there is one
 //   ... --given                         uses REC/odometry.tum as a prior
 //   ... --surfaces                      lists the map's surfaces
+//   ... --points FILE                   writes the map's points, one `x y z` a line, in the truth's frame if there is one
 #include <fmt/core.h>
+#include <fmt/os.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -99,6 +102,75 @@ struct Errors {
   }
 };
 
+// A registered scan by the keyframe that was the newest when it came, as the localizer has it.
+struct ScanPlace {
+  size_t keyframe = 0;
+  Eigen::Isometry3d T_odom_lidar = Eigen::Isometry3d::Identity();
+  std::optional<Eigen::Vector3d> truth;
+};
+
+// The rigid motion that takes `from` to `to` best (Umeyama, without scale).
+Eigen::Isometry3d Aligned(const std::vector<Eigen::Vector3d>& from, const std::vector<Eigen::Vector3d>& to) {
+  Eigen::Matrix3Xd a(3, from.size()), b(3, to.size());
+  for (size_t i = 0; i < from.size(); ++i) {
+    a.col(static_cast<Eigen::Index>(i)) = from[i];
+    b.col(static_cast<Eigen::Index>(i)) = to[i];
+  }
+  return Eigen::Isometry3d(Eigen::umeyama(a, b, false));
+}
+
+// Position errors after alignment; returns the alignment.
+std::optional<Eigen::Isometry3d> PrintAligned(const char* what, const std::vector<ScanPlace>& places, const std::function<Eigen::Vector3d(const ScanPlace&)>& position) {
+  std::vector<Eigen::Vector3d> estimated, truth;
+  for (const ScanPlace& place : places) {
+    if (!place.truth) continue;
+    estimated.push_back(position(place));
+    truth.push_back(*place.truth);
+  }
+  if (truth.size() < 3) return std::nullopt;
+  const Eigen::Isometry3d T = Aligned(estimated, truth);
+  double sum_m2 = 0, worst_m = 0;
+  for (size_t i = 0; i < truth.size(); ++i) {
+    const double error_m = (T * estimated[i] - truth[i]).norm();
+    sum_m2 += error_m * error_m;
+    worst_m = std::max(worst_m, error_m);
+  }
+  fmt::print("error of {}, best aligned: {:.4f} m rms, {:.4f} m worst\n", what, std::sqrt(sum_m2 / static_cast<double>(truth.size())), worst_m);
+  return T;
+}
+
+// How thick walls come out: points' rms about their surface, over all its keyframes; the middle surface by points.
+void PrintThickness(const SGraph& graph) {
+  std::vector<std::pair<double, double>> walls;  // rms, points
+  double points = 0;
+  for (const MapSurface& s : graph.surfaces) {
+    if (s.kind != SurfaceKind::kWall || s.observations.empty() || s.length_m() < 1.0) continue;
+    PlaneStats sum;
+    for (const Observation& o : s.observations) sum.Add(o.stats.Transformed(graph.keyframes[o.keyframe].T_map_kf));
+    const Eigen::Vector4d plane(s.plane.n.x(), s.plane.n.y(), s.plane.n.z(), s.plane.d);
+    walls.emplace_back(std::sqrt(std::max(0.0, plane.dot(sum.C * plane) / sum.count())), sum.count());
+    points += sum.count();
+  }
+  std::sort(walls.begin(), walls.end());
+  double so_far = 0;
+  for (const auto& [rms_m, count] : walls) {
+    so_far += count;
+    if (so_far < 0.5 * points) continue;
+    fmt::print("walls:    {} longer than 1 m, {:.4f} m rms across the middle one\n", walls.size(), rms_m);
+    return;
+  }
+}
+
+void WritePoints(const std::string& path, const SGraph& graph, const Eigen::Isometry3d& T) {
+  fmt::ostream out = fmt::output_file(path);
+  for (const Keyframe& keyframe : graph.keyframes) {
+    for (const Eigen::Vector3f& point : keyframe.points) {
+      const Eigen::Vector3d p = T * keyframe.T_map_kf * point.cast<double>();
+      out.print("{:.3f} {:.3f} {:.3f}\n", p.x(), p.y(), p.z());
+    }
+  }
+}
+
 void PrintSurfaces(const SGraph& graph, const Eigen::Isometry3d& T_plan_map) {
   for (const MapSurface& s : graph.surfaces) {
     if (s.observations.empty()) continue;
@@ -111,7 +183,7 @@ void PrintSurfaces(const SGraph& graph, const Eigen::Isometry3d& T_plan_map) {
   }
 }
 
-void Run(const Input& input, bool surfaces) {
+void Run(const Input& input, bool surfaces, const std::string& points_path) {
   Odometry odometry;
   Mapper mapper;
   Timer odometry_timer, mapper_timer;
@@ -120,6 +192,7 @@ void Run(const Input& input, bool surfaces) {
   int failed = 0;
   double length_m = 0, iterations = 0;
   std::optional<Eigen::Vector3d> last;
+  std::vector<ScanPlace> places;
   for (size_t i = 0; i < input.num_scans; ++i) {
     const std::optional<Scan> scan = input.read(i);
     if (!scan) continue;
@@ -128,7 +201,7 @@ void Run(const Input& input, bool surfaces) {
     const OdometryResult r = odometry.Register(*scan, given);
     odometry_timer.Stop();
     mapper_timer.Start();
-    if (r.ok) mapper.AddScan(r.deskewed, r.T_odom_lidar);
+    if (r.ok) mapper.AddScan(r.deskewed, r.T_odom_lidar, r.planar ? std::optional(r.step_covariance) : std::nullopt);
     mapper_timer.Stop();
     failed += r.ok ? 0 : 1;
     iterations += r.iterations;
@@ -136,6 +209,8 @@ void Run(const Input& input, bool surfaces) {
     last = r.T_odom_lidar.translation();
     const std::optional<Eigen::Isometry3d> truth = input.truth_at ? input.truth_at(scan->stamp_s) : std::nullopt;
     if (truth && !T_plan_odom) T_plan_odom = *truth * r.T_odom_lidar.inverse();
+    const size_t num_keyframes = mapper.graph().keyframes.size();
+    places.push_back({num_keyframes > 0 ? num_keyframes - 1 : 0, r.T_odom_lidar, truth ? std::optional<Eigen::Vector3d>(truth->translation()) : std::nullopt});
     if (truth) errors.Add(truth->inverse() * *T_plan_odom * r.T_odom_lidar);
   }
   mapper.Flush();
@@ -144,9 +219,20 @@ void Run(const Input& input, bool surfaces) {
     fmt::print("error, aligned at the start: {:.4f} m rms, {:.4f} m worst (z {:.4f} m), {:.3f} deg worst\n", std::sqrt(errors.square_sum_m2 / errors.count),
                errors.worst_m, errors.worst_z_m, errors.worst_rad * 57.29578);
   }
+  PrintAligned("odometry", places, [](const ScanPlace& place) -> Eigen::Vector3d { return place.T_odom_lidar.translation(); });
+  const std::vector<Keyframe>& keyframes = mapper.graph().keyframes;
+  std::optional<Eigen::Isometry3d> T_truth_map;
+  if (!keyframes.empty()) {
+    T_truth_map = PrintAligned("the map", places, [&](const ScanPlace& place) -> Eigen::Vector3d {
+      const Keyframe& keyframe = keyframes[place.keyframe];
+      return keyframe.T_map_kf * keyframe.T_odom_kf.inverse() * place.T_odom_lidar.translation();
+    });
+  }
   fmt::print("odometry: {}; {:.1f} iterations\n", odometry_timer.Summary(), iterations / static_cast<double>(input.num_scans));
   fmt::print("mapper:   {}; {} keyframes, {} surfaces\n", mapper_timer.Summary(), mapper.graph().keyframes.size(),
              std::count_if(mapper.graph().surfaces.begin(), mapper.graph().surfaces.end(), [](const MapSurface& s) { return !s.observations.empty(); }));
+  PrintThickness(mapper.graph());
+  if (!points_path.empty()) WritePoints(points_path, mapper.graph(), T_truth_map.value_or(Eigen::Isometry3d::Identity()));
   if (surfaces) PrintSurfaces(mapper.graph(), T_plan_odom.value_or(Eigen::Isometry3d::Identity()));
 }
 
@@ -158,5 +244,6 @@ int main(int argc, char** argv) {
   const bool synthetic = arguments.empty() || arguments[0].starts_with("--");
   const std::optional<Input> input = synthetic ? std::optional<Input>(SyntheticInput()) : RecordingInput(arguments[0], has("--given"));
   if (!input) return 2;
-  Run(*input, has("--surfaces"));
+  const auto points = std::find(arguments.begin(), arguments.end(), "--points");
+  Run(*input, has("--surfaces"), points != arguments.end() && points + 1 != arguments.end() ? points[1] : "");
 }

@@ -60,9 +60,8 @@ Status RunInspect(const InspectFlags& flags, Session& session) {
   auto file = AGraphFile::Open(flags.path);
   if (!file) return session.Fail(file.error());
   const size_t triangles = file->triangle_count();
-  // Only what is cut through the building needs its triangles.
-  const bool cuts = !flags.svg.empty() || !flags.nav2.empty();
-  const Expected<AGraph> graph = cuts ? std::move(*file).Load() : file->graph();
+  // With its triangles, so that a damaged file is said to be one whatever is asked of it.
+  const Expected<AGraph> graph = std::move(*file).Load();
   if (!graph) return session.Fail(graph.error());
   const auto apart = CheckOutputs({{"--svg", flags.svg}, {"--graphml", flags.graphml}}, {flags.path, graph->source_path});
   if (!apart) return session.Fail(apart.error());

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "compiler/frontends/drawing/plane.h"
+#include "compiler/geometry/box_tree.h"
 
 namespace plumb::compiler {
 namespace {
@@ -261,7 +262,7 @@ class MassFinder {
     out_.single_lines = out_.single_m > 0 && bounding_m <= options_.max_double_share * (bounding_m + out_.single_m);
   }
 
-  // Each as a box around the line, half a thickness longer at both ends so that corners close.
+  // Each as a box around the line, half a thickness longer at ends that others meet, so that corners close.
   void AddSingleLines() {
     std::vector<MapLine> singles;
     for (uint32_t e = 0; e < Map().edges().size(); ++e) {
@@ -271,11 +272,25 @@ class MassFinder {
     for (uint32_t e = 0; e < Map().edges().size(); ++e) {
       if (!IsSingle(e)) lines_.push_back({Map().FromPoint(2 * e), Map().ToPoint(2 * e), Map().edges()[e].source});
     }
-    for (const MapLine& s : MergeCollinear(std::move(singles), options_.join_m)) {
+    const std::vector<MapLine> walls = MergeCollinear(std::move(singles), options_.join_m);
+    std::vector<Eigen::AlignedBox2d> boxes;
+    for (const MapLine& s : walls) boxes.emplace_back(s.a.cwiseMin(s.b), s.a.cwiseMax(s.b));
+    const BoxTree<2> tree(std::move(boxes));
+    const Eigen::Vector2d reach = Eigen::Vector2d::Constant(2 * options_.join_m);
+    const auto is_met = [&](const Eigen::Vector2d& end, size_t own) {
+      bool met = false;
+      tree.ForEachIn({end - reach, end + reach}, [&](uint32_t i) {
+        met = met || (i != own && DistanceToLine(end, walls[i].a, walls[i].b) <= 2 * options_.join_m);
+      });
+      return met;
+    };
+    for (size_t i = 0; i < walls.size(); ++i) {
+      const MapLine& s = walls[i];
       const Eigen::Vector2d d = s.b - s.a;
       if (d.norm() < options_.min_single_m) continue;
       const Eigen::Vector2d along = 0.5 * options_.single_line_thickness_m * d.normalized(), side = Perp(along);
-      std::vector<Eigen::Vector2d> box = {s.a - along - side, s.b + along - side, s.b + along + side, s.a - along + side};
+      const Eigen::Vector2d a = is_met(s.a, i) ? Eigen::Vector2d(s.a - along) : s.a, b = is_met(s.b, i) ? Eigen::Vector2d(s.b + along) : s.b;
+      std::vector<Eigen::Vector2d> box = {a - side, b - side, b + side, a + side};
       for (size_t k = 0; k < 4; ++k) lines_.push_back({box[k], box[(k + 1) % 4], kSingle});
       fills_.push_back(std::move(box));
     }

@@ -19,6 +19,7 @@ constexpr double kMinSill_m = 0.15;        // of a band of windows
 constexpr double kMinSheet_m = 0.5, kMinLength_m = 0.05, kMinLoose_m = 0.1;
 constexpr double kMaxParapetThickness_m = 0.35;
 constexpr double kMaxColumn_m = 0.8;
+constexpr double kMinFacetCosine = 0.87;  // between two facets of a curve
 
 // A stretch of a grid that no wall covers and nothing holds up.
 struct LooseColumns {
@@ -177,10 +178,28 @@ class WallFinder {
   // Piers have no direction of their own: they lie in the line of another wall, else along their longer side.
   void AlignPiers() {
     for (WallPiece& p : walls_.pieces) {
-      if (p.sheet || !p.voids.empty() || std::max(p.length_m(), p.thickness_m()) > kMaxColumn_m || HasPartner(p)) continue;
+      if (p.sheet || !p.voids.empty() || std::max(p.length_m(), p.thickness_m()) > kMaxColumn_m || HasPartner(p) || GoesOnAskew(p))
+        continue;
       const std::optional<WallPiece> turned = walls_.Turned(p);
       if (turned && (p.length_m() < p.thickness_m() || HasPartner(*turned))) p = *turned;
     }
+  }
+
+  // A facet of a curve: the next one begins where it ends, turned a little.
+  bool GoesOnAskew(const WallPiece& p) const {
+    const FaceDirection& d = walls_.directions()[p.direction];
+    return std::any_of(walls_.pieces.begin(), walls_.pieces.end(), [&](const WallPiece& q) {
+      const FaceDirection& e = walls_.directions()[q.direction];
+      const double cosine = std::abs(d.along.dot(e.along));
+      if (q.direction == p.direction || cosine < kMinFacetCosine || std::abs(q.thickness_m() - p.thickness_m()) > kWallLine_m) return false;
+      for (const double s : {p.span.s0_m, p.span.s1_m}) {
+        for (const double t : {q.span.s0_m, q.span.s1_m}) {
+          const Vector2d gap = walls_.At(p, s, 0.5 * (p.c0_m + p.c1_m)) - walls_.At(q, t, 0.5 * (q.c0_m + q.c1_m));
+          if (gap.norm() < kWallLine_m + 0.5 * p.thickness_m() * std::sqrt(1 - cosine * cosine)) return true;
+        }
+      }
+      return false;
+    });
   }
 
   bool HasPartner(const WallPiece& p) const {

@@ -86,5 +86,26 @@ TEST(AppendStorey, PiecesOfWallBetweenCrossingWallsAreNoDoors) {
   EXPECT_EQ(Compiled(plan).rooms.size(), 3u);
 }
 
+// A wall that is drawn as one line ends where its line does: a gap of 0.9 m is a doorway of 0.9 m.
+TEST(AppendStorey, SingleLinesEndWhereTheyAreDrawn) {
+  Drawing drawing;
+  const auto line = [&](double x0, double y0, double x1, double y1) {
+    DrawnPath path;
+    path.role = LineRole::kWall;
+    path.points = {{x0, y0}, {x1, y1}};
+    path.location.guid = std::to_string(drawing.paths.size());
+    drawing.paths.push_back(path);
+  };
+  line(0, 0, 8, 0), line(8, 0, 8, 5), line(8, 5, 0, 5), line(0, 5, 0, 0);
+  line(4, 0, 4, 2), line(4, 2.9, 4, 5);
+  PlanIr plan;
+  DiagnosticSink sink;
+  ASSERT_TRUE(AppendStorey(drawing, {{}, "Ground", {}, 0.0}, {}, plan, sink));
+  const AGraph graph = Compiled(plan);
+  EXPECT_EQ(graph.rooms.size(), 2u);
+  ASSERT_EQ(graph.doorways.size(), 1u);
+  EXPECT_NEAR(graph.doorways[0].width_m, 0.9, 1e-3);
+}
+
 }  // namespace
 }  // namespace plumb::compiler

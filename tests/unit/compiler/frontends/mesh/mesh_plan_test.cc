@@ -105,5 +105,16 @@ TEST(MeshPlan, KeepsEveryTriangleOfTheScene) {
   EXPECT_NEAR(out_m2, in_m2, 1e-6);
 }
 
+// Facets shorter than the wall is thick are no piers.
+TEST(MeshPlan, MakesOneWallOfARingHoweverFineItsFacetsAre) {
+  for (const int sides : {48, 120, 240}) {
+    MeshScene scene;
+    test::AddRing(3, 0.2, 2.7, sides, scene);
+    const std::vector<PlanElement> walls = WallsOf(PlanOf(scene));
+    ASSERT_EQ(walls.size(), 1u) << sides;
+    EXPECT_NEAR(walls[0].thickness_m.value_or(0), 0.2, 1e-3) << sides;
+  }
+}
+
 }  // namespace
 }  // namespace plumb::compiler

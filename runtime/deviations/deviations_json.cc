@@ -3,16 +3,13 @@
 #include <numbers>
 
 #include "runtime/deviations/deviations.h"
+#include "runtime/numerics/rounded.h"
 
 namespace plumb::runtime {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-double Rounded(double value, double per_unit) {
-  const double rounded = std::round(value * per_unit) / per_unit;
-  return rounded == 0 ? 0 : rounded;  // never -0
-}
 double Metres(double v) { return Rounded(v, 1e5); }
 double Degrees(double rad) { return Rounded(rad * 180 / std::numbers::pi, 1e4); }
 Json TextOrNull(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }

@@ -4,15 +4,13 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "runtime/numerics/rounded.h"
+
 namespace plumb::runtime {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-double Rounded(double value, double per_unit) {
-  const double rounded = std::round(value * per_unit) / per_unit;
-  return rounded == 0 ? 0 : rounded;  // never -0
-}
 double Metres(double v) { return Rounded(v, 1e5); }
 double Unit(double v) { return Rounded(v, 1e9); }
 

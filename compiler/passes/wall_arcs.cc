@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -10,34 +9,11 @@
 #include <optional>
 #include <span>
 
+#include "compiler/geometry/circle.h"
 #include "compiler/passes/polygon.h"
 
 namespace plumb::compiler {
 namespace {
-
-struct Circle {
-  Eigen::Vector2d center = Eigen::Vector2d::Zero();
-  double radius_m = 0;
-};
-
-// Least squares of |p|^2 = 2 c . p + k about the points' mean (Kasa): exact for points on a circle, as corners of facets are.
-std::optional<Circle> FitCircle(std::span<const Eigen::Vector2d> points) {
-  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-  for (const auto& p : points) mean += p;
-  mean /= static_cast<double>(points.size());
-  Eigen::Matrix2d a = Eigen::Matrix2d::Zero();
-  Eigen::Vector2d b = Eigen::Vector2d::Zero();
-  double square = 0;
-  for (const auto& p : points) {
-    const Eigen::Vector2d q = p - mean;
-    a += q * q.transpose();
-    b += 0.5 * q.squaredNorm() * q;
-    square += q.squaredNorm();
-  }
-  if (!(a.determinant() > 1e-9 * square * square)) return std::nullopt;
-  const Eigen::Vector2d c = a.inverse() * b;
-  return Circle{mean + c, std::sqrt(c.squaredNorm() + square / static_cast<double>(points.size()))};
-}
 
 double Turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
   const Eigen::Vector2d u = b - a, v = c - b;

@@ -1,17 +1,17 @@
 #include "compiler/frontends/drawing/arc_fit.h"
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
 #include "compiler/frontends/drawing/plane.h"
+#include "compiler/geometry/circle.h"
 
 namespace plumb::compiler {
 namespace {
 
-constexpr double kMinShare = 0.25;    // of a closed line's length that arcs must have to be told
-constexpr double kAllCurved = 0.9;    // ... to be all of it
+constexpr double kMinShare = 0.25;  // of a closed line's length that arcs must have to be told
+constexpr double kAllCurved = 0.9;  // ... to be all of it
 constexpr double kMinSweep_rad = 0.3;
 constexpr size_t kFine = 12;  // points
 
@@ -20,23 +20,13 @@ double TurnAt(std::span<const Eigen::Vector2d> p, size_t i) {
   return std::atan2(Cross(a, b), a.dot(b));
 }
 
-// The circle of least squares in x^2 + y^2 (Kasa), about the first point for precision.
-std::optional<Arc> FitCircle(std::span<const Eigen::Vector2d> points, double max_off_share) {
-  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  for (const auto& p : points) {
-    const Eigen::Vector2d q = p - points[0];
-    const Eigen::Vector3d row(q.x(), q.y(), 1);
-    normal += row * row.transpose();
-    right += q.squaredNorm() * row;
-  }
-  const Eigen::FullPivLU<Eigen::Matrix3d> solver(normal);
-  if (!solver.isInvertible()) return std::nullopt;
-  const Eigen::Vector3d x = solver.solve(right);
+// The arc through all of the points, each within a share of the radius of it.
+std::optional<Arc> FitArc(std::span<const Eigen::Vector2d> points, double max_off_share) {
+  const std::optional<Circle> circle = FitCircle(points);
+  if (!circle) return std::nullopt;
   Arc out;
-  const Eigen::Vector2d center = 0.5 * x.head<2>();
-  out.center = points[0] + center;
-  out.radius_m = std::sqrt(std::max(0.0, x.z() + center.squaredNorm()));
+  out.center = circle->center;
+  out.radius_m = circle->radius_m;
   if (!(out.radius_m > 0) || !std::isfinite(out.radius_m)) return std::nullopt;
   for (const auto& p : points) {
     if (std::abs((p - out.center).norm() - out.radius_m) > max_off_share * out.radius_m) return std::nullopt;
@@ -85,12 +75,12 @@ std::vector<ArcRun> FindArcRuns(std::span<const Eigen::Vector2d> points, const A
   std::vector<ArcRun> out;
   // Coordinates of few digits make the steps of a fine line turn to and fro: all of it may be an arc all the same.
   if (points.size() > kFine) {
-    if (const auto arc = FitCircle(points, options.max_off_share)) return {{0, points.size() - 1, *arc}};
+    if (const auto arc = FitArc(points, options.max_off_share)) return {{0, points.size() - 1, *arc}};
   }
   for (size_t first = 0; first + options.min_steps < points.size();) {
     const size_t last = EndOfRun(points, first, options);
     if (last - first >= options.min_steps) {
-      if (const auto arc = FitCircle(points.subspan(first, last - first + 1), options.max_off_share)) out.push_back({first, last, *arc});
+      if (const auto arc = FitArc(points.subspan(first, last - first + 1), options.max_off_share)) out.push_back({first, last, *arc});
     }
     first = last;
   }

@@ -23,6 +23,19 @@ void AddRing(const Ring& ring, const std::string& guid, Drawing& drawing) {
   drawing.paths.push_back(path);
 }
 
+// Each from (x, y) to (x, y).
+Drawing WallLines(const std::vector<Eigen::Vector4d>& lines) {
+  Drawing out;
+  for (const Eigen::Vector4d& line : lines) {
+    DrawnPath path;
+    path.role = LineRole::kWall;
+    path.points = {line.head<2>(), line.tail<2>()};
+    path.location.guid = std::to_string(out.paths.size());
+    out.paths.push_back(path);
+  }
+  return out;
+}
+
 AGraph Compiled(PlanIr plan) {
   DiagnosticSink sink;
   std::optional<Built> built = BuildAGraph(plan, {}, sink);
@@ -69,16 +82,7 @@ TEST(AppendStorey, IdsOfOneStoreyAreNotThoseOfAnother) {
 
 // Two walls that cross a corridor's ends: the pieces of the outer walls between them are no doors in frames.
 TEST(AppendStorey, PiecesOfWallBetweenCrossingWallsAreNoDoors) {
-  Drawing drawing;
-  const auto line = [&](double x0, double y0, double x1, double y1) {
-    DrawnPath path;
-    path.role = LineRole::kWall;
-    path.points = {{x0, y0}, {x1, y1}};
-    path.location.guid = std::to_string(drawing.paths.size());
-    drawing.paths.push_back(path);
-  };
-  line(0, 0, 10, 0), line(10, 0, 10, 8), line(10, 8, 0, 8), line(0, 8, 0, 0);
-  line(0, 3, 10, 3), line(0, 4.5, 10, 4.5);
+  const Drawing drawing = WallLines({{0, 0, 10, 0}, {10, 0, 10, 8}, {10, 8, 0, 8}, {0, 8, 0, 0}, {0, 3, 10, 3}, {0, 4.5, 10, 4.5}});
   PlanIr plan;
   DiagnosticSink sink;
   ASSERT_TRUE(AppendStorey(drawing, {{}, "Ground", {}, 0.0}, {}, plan, sink));
@@ -88,16 +92,7 @@ TEST(AppendStorey, PiecesOfWallBetweenCrossingWallsAreNoDoors) {
 
 // A wall that is drawn as one line ends where its line does: a gap of 0.9 m is a doorway of 0.9 m.
 TEST(AppendStorey, SingleLinesEndWhereTheyAreDrawn) {
-  Drawing drawing;
-  const auto line = [&](double x0, double y0, double x1, double y1) {
-    DrawnPath path;
-    path.role = LineRole::kWall;
-    path.points = {{x0, y0}, {x1, y1}};
-    path.location.guid = std::to_string(drawing.paths.size());
-    drawing.paths.push_back(path);
-  };
-  line(0, 0, 8, 0), line(8, 0, 8, 5), line(8, 5, 0, 5), line(0, 5, 0, 0);
-  line(4, 0, 4, 2), line(4, 2.9, 4, 5);
+  const Drawing drawing = WallLines({{0, 0, 8, 0}, {8, 0, 8, 5}, {8, 5, 0, 5}, {0, 5, 0, 0}, {4, 0, 4, 2}, {4, 2.9, 4, 5}});
   PlanIr plan;
   DiagnosticSink sink;
   ASSERT_TRUE(AppendStorey(drawing, {{}, "Ground", {}, 0.0}, {}, plan, sink));

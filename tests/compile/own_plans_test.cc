@@ -57,7 +57,7 @@ TEST(OfficeFloor, AsADxfDrawingIsThePlanOfTheIfc) { ExpectSame(Of("office_floor/
 
 TEST(OfficeFloor, AsAMeshIsThePlanOfTheIfc) { ExpectSame(Of("office_floor/plan.ifc"), Of("office_floor/plan.ply"), MeshOptions()); }
 
-// The drawing is not turned, and its corner is 1 m from the sheet's; the building stands turned by 3-4-5's cousin 7-24-25.
+// The drawing is not turned, and its corner is 1 m from the sheet's; the building's x axis is (0.96, 0.28), from 7, 24 and 25.
 TEST(OfficeFloor, AsAnSvgDrawingIsThePlanOfTheIfc) {
   const AGraph svg = Of("office_floor/plan.svg");
   test::SamePlanOptions options;

@@ -8,9 +8,9 @@ namespace plumb::compiler {
 struct HatchingOptions {
   size_t min_lines = 6;             // beside each other
   double max_spacing_share = 0.03;  // of the drawing's extent
-  double max_spacing_m =
-      0.45;                    // ... in metres, of lines along or across most others by a pen that draws other things, too; 0: unit unknown
-  double own_pen_share = 0.9;  // of what a pen draws, for it to be one for hatching
+  // Of lines along or across most others, by a pen that draws other things, too. 0: the drawing's unit is not known yet.
+  double max_spacing_m = 0.45;
+  double own_pen_share = 0.9;    // of what a pen draws, for it to be one for hatching
   double max_difference = 0.08;  // of the spacing, between neighbours
   double min_overlap = 0.5;      // of the shorter line, along it
 };

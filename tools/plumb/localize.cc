@@ -8,7 +8,7 @@
 #include <unordered_set>
 
 #include "runtime/localizer/localizer.h"
-#include "runtime/mapping/sgraph_json.h"
+#include "runtime/rooms/sgraph_json.h"
 #include "schema/agraph_reader.h"
 #include "schema/files.h"
 #include "tools/plumb/command.h"
@@ -150,7 +150,7 @@ Expected<void> WriteRun(const LocalizeFlags& flags, const AGraph& plan, const Re
       {"verdicts.csv", VerdictsToCsv(results.verdicts)},
       {"timing.csv", TimingToCsv(results.timing)},
       {"map.ply", PointsToPly(AsBuiltCloud(localizer, flags.map_voxel_m), "as built, plan frame, metres")},
-      {"sgraph.json", runtime::SGraphToJson(localizer.map(), localizer.T_plan_map())},
+      {"sgraph.json", runtime::SGraphToJson(localizer.map(), runtime::DeriveUpperLayers(localizer.map()), localizer.T_plan_map())},
       {"deviations.json", runtime::DeviationsToJson(plan, report)},
       {"run.json", RunInfoToJson(info)},
   };

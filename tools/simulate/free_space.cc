@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "runtime/matching/ray_caster.h"
+#include "runtime/numerics/distance_transform.h"
 
 namespace plumb::tools {
 namespace {
@@ -40,37 +40,6 @@ bool Inside(const Ring& ring, const Eigen::Vector2d& p) {
 
 bool InRoom(const Room& room, const Eigen::Vector2d& p) {
   return Inside(room.polygon, p) && std::none_of(room.holes.begin(), room.holes.end(), [&p](const Ring& hole) { return Inside(hole, p); });
-}
-
-// Squared distances in cells along one line, given those so far (Felzenszwalb and Huttenlocher 2012).
-void TransformLine(std::vector<double>& f) {
-  const int n = static_cast<int>(f.size());
-  std::vector<int> site(f.size());
-  std::vector<double> from(f.size() + 1);
-  int last = -1;
-  for (int q = 0; q < n; ++q) {
-    const double fq = f[static_cast<size_t>(q)];
-    if (std::isinf(fq)) continue;
-    double at = -std::numeric_limits<double>::infinity();
-    while (last >= 0) {
-      const int p = site[static_cast<size_t>(last)];
-      at = ((fq + q * q) - (f[static_cast<size_t>(p)] + p * p)) / (2.0 * (q - p));
-      if (at > from[static_cast<size_t>(last)]) break;
-      --last;
-    }
-    if (last < 0) at = -std::numeric_limits<double>::infinity();
-    ++last;
-    site[static_cast<size_t>(last)] = q;
-    from[static_cast<size_t>(last)] = at;
-  }
-  if (last < 0) return;
-  std::vector<double> out(f.size());
-  for (int q = 0, k = 0; q < n; ++q) {
-    while (k < last && from[static_cast<size_t>(k) + 1] < q) ++k;
-    const int p = site[static_cast<size_t>(k)];
-    out[static_cast<size_t>(q)] = (q - p) * (q - p) + f[static_cast<size_t>(p)];
-  }
-  f = std::move(out);
 }
 
 }  // namespace
@@ -173,25 +142,9 @@ void FreeSpace::BlockMissingFloor(const AGraph& house, std::vector<uint8_t>& blo
 }
 
 void FreeSpace::MeasureClearance(const std::vector<uint8_t>& blocked) {
-  std::vector<double> squared(blocked.size());
-  for (size_t i = 0; i < blocked.size(); ++i) squared[i] = blocked[i] != 0 ? 0 : std::numeric_limits<double>::infinity();
-  std::vector<double> line(static_cast<size_t>(width_));
-  for (int y = 0; y < height_; ++y) {
-    for (int x = 0; x < width_; ++x) line[static_cast<size_t>(x)] = squared[Index({x, y})];
-    TransformLine(line);
-    for (int x = 0; x < width_; ++x) squared[Index({x, y})] = line[static_cast<size_t>(x)];
-  }
-  line.resize(static_cast<size_t>(height_));
-  clearance_m_.resize(blocked.size());
-  for (int x = 0; x < width_; ++x) {
-    for (int y = 0; y < height_; ++y) line[static_cast<size_t>(y)] = squared[Index({x, y})];
-    TransformLine(line);
-    // To the near side of the obstacle's cell at worst, so half a cell less.
-    for (int y = 0; y < height_; ++y) {
-      const double cells = std::sqrt(line[static_cast<size_t>(y)]);
-      clearance_m_[Index({x, y})] = static_cast<float>(kCell_m * std::max(0.0, cells - 0.5));
-    }
-  }
+  clearance_m_ = runtime::SquaredCellDistances(blocked, static_cast<size_t>(width_));
+  // To the near side of the obstacle's cell at worst, so half a cell less.
+  for (float& squared : clearance_m_) squared = static_cast<float>(kCell_m * std::max(0.0, std::sqrt(static_cast<double>(squared)) - 0.5));
 }
 
 }  // namespace plumb::tools

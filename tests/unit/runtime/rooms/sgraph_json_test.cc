@@ -1,4 +1,4 @@
-#include "runtime/mapping/sgraph_json.h"
+#include "runtime/rooms/sgraph_json.h"
 
 #include <gtest/gtest.h>
 
@@ -33,8 +33,41 @@ SGraph OneWall() {
   return graph;
 }
 
+UpperLayers OneRoom() {
+  UpperLayers layers;
+  layers.floors.push_back({0, 0.5, 0.1, std::nullopt, {0}});
+  MapRoom room;
+  room.polygon = {{0, 0}, {4, 0}, {4, 4}};
+  room.area_m2 = 8;
+  room.center = {2, 1};
+  room.surfaces = {3};
+  room.doorways = {0};
+  layers.rooms.push_back(room);
+  layers.doorways.push_back({0, 0, {2, 0}, 0, 0.9, 0, std::nullopt});
+  layers.corridors.push_back({0, 0, 3, 5, {0, 1}, {4, 1}, 2});
+  return layers;
+}
+
+TEST(SGraphToJson, ListsTheUpperLayersInThePlanFrame) {
+  Eigen::Isometry3d T_plan_map = Eigen::Isometry3d::Identity();
+  T_plan_map.linear() << 0, -1, 0, 1, 0, 0, 0, 0, 1;  // a quarter turn to the left
+  T_plan_map.translation() = Eigen::Vector3d(10, 20, 3);
+  const Json json = Json::parse(SGraphToJson(OneWall(), OneRoom(), T_plan_map));
+  EXPECT_EQ(json.at("floors")[0].at("floor_z_m"), 3.1);
+  EXPECT_TRUE(json.at("floors")[0].at("ceiling_z_m").is_null());
+  const Json& room = json.at("rooms")[0];
+  EXPECT_EQ(room.at("polygon"), (std::vector<std::vector<double>>{{10, 20}, {10, 24}, {6, 24}}));
+  EXPECT_EQ(room.at("surfaces"), std::vector<int>{3});
+  const Json& doorway = json.at("doorways")[0];
+  EXPECT_EQ(doorway.at("position"), (std::vector<double>{10, 22}));
+  EXPECT_EQ(doorway.at("yaw_rad"), 1.5708);
+  EXPECT_EQ(doorway.at("rooms")[0], 0);
+  EXPECT_TRUE(doorway.at("rooms")[1].is_null());
+  EXPECT_EQ(json.at("corridors")[0].at("centre_line"), (std::vector<std::vector<double>>{{9, 20}, {9, 24}}));
+}
+
 TEST(SGraphToJson, ListsKeyframesAndTheSurfacesThatWereSeen) {
-  const Json json = Json::parse(SGraphToJson(OneWall(), std::nullopt));
+  const Json json = Json::parse(SGraphToJson(OneWall(), OneRoom(), std::nullopt));
   EXPECT_EQ(json.at("version"), 1);
   EXPECT_EQ(json.at("frame"), "map");
   ASSERT_EQ(json.at("keyframes").size(), 1u);
@@ -55,7 +88,7 @@ TEST(SGraphToJson, IsInThePlanFrameWhereTheMapLiesInAPlan) {
   Eigen::Isometry3d T_plan_map = Eigen::Isometry3d::Identity();
   T_plan_map.linear() << 0, -1, 0, 1, 0, 0, 0, 0, 1;  // a quarter turn to the left
   T_plan_map.translation() = Eigen::Vector3d(10, 20, 3);
-  const Json json = Json::parse(SGraphToJson(OneWall(), T_plan_map));
+  const Json json = Json::parse(SGraphToJson(OneWall(), OneRoom(), T_plan_map));
   EXPECT_EQ(json.at("frame"), "plan");
   EXPECT_EQ(json.at("keyframes")[0].at("position"), (std::vector<double>{8, 21, 3.5}));
   const Json& wall = json.at("surfaces")[0];
@@ -67,7 +100,7 @@ TEST(SGraphToJson, IsInThePlanFrameWhereTheMapLiesInAPlan) {
 }
 
 TEST(SGraphToJson, OfNothingIsStillAnObject) {
-  const Json json = Json::parse(SGraphToJson({}, std::nullopt));
+  const Json json = Json::parse(SGraphToJson({}, {}, std::nullopt));
   EXPECT_TRUE(json.at("keyframes").empty());
   EXPECT_TRUE(json.at("surfaces").empty());
 }

@@ -54,7 +54,9 @@ class LineTransform {
   }
 
  private:
-  static double Height(const std::vector<float>& f, size_t q) { return static_cast<double>(f[q]) + static_cast<double>(q) * static_cast<double>(q); }
+  static double Height(const std::vector<float>& f, size_t q) {
+    return static_cast<double>(f[q]) + static_cast<double>(q) * static_cast<double>(q);
+  }
 
   std::vector<size_t> site_;
   std::vector<double> from_;

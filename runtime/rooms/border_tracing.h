@@ -22,7 +22,7 @@ using Border = std::vector<BorderStep>;
 
 // All borders of the region with this label, whose cells lie in [lo, hi]; cells belong together if they share a side. Outer ones run
 // counter-clockwise, those of holes clockwise. In order of their lowest corner. O(cells in [lo, hi]).
-[[nodiscard]] std::vector<Border> TraceBorders(const FloorGrid& grid, const std::vector<int32_t>& label, int32_t region, const Eigen::Vector2i& lo,
-                                               const Eigen::Vector2i& hi);
+[[nodiscard]] std::vector<Border> TraceBorders(const FloorGrid& grid, const std::vector<int32_t>& label, int32_t region,
+                                               const Eigen::Vector2i& lo, const Eigen::Vector2i& hi);
 
 }  // namespace plumb::runtime

@@ -67,10 +67,12 @@ std::vector<MapCorridor> FindCorridors(const FreeSpace& space, const Regions& re
       if (const std::optional<MapCorridor> corridor = Between(sides[i], sides[k], space, regions, region)) found.push_back(*corridor);
     }
   }
-  std::stable_sort(found.begin(), found.end(), [](const MapCorridor& a, const MapCorridor& b) { return (a.end - a.start).norm() > (b.end - b.start).norm(); });
+  std::stable_sort(found.begin(), found.end(),
+                   [](const MapCorridor& a, const MapCorridor& b) { return (a.end - a.start).norm() > (b.end - b.start).norm(); });
   std::vector<MapCorridor> corridors;
   for (const MapCorridor& c : found) {
-    if (std::none_of(corridors.begin(), corridors.end(), [&](const MapCorridor& longer) { return LiesIn(c, longer); })) corridors.push_back(c);
+    if (std::none_of(corridors.begin(), corridors.end(), [&](const MapCorridor& longer) { return LiesIn(c, longer); }))
+      corridors.push_back(c);
   }
   return corridors;
 }

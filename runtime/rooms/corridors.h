@@ -11,8 +11,10 @@
 
 namespace plumb::runtime {
 
-// Of one region: pairs of its outline's surfaces that are parallel within 5 degrees and face each other over 0.6 m to 5 m of the region's free space,
-// along twice their distance or more. The longest first; none that lies in a longer one. Ids and rooms are left 0. O(surfaces^2).
-[[nodiscard]] std::vector<MapCorridor> FindCorridors(const FreeSpace& space, const Regions& regions, int32_t region, const Outline& outline);
+// Of one region: pairs of its outline's surfaces that are parallel within 5 degrees and face each other over 0.6 m to 5 m of the region's
+// free space, along twice their distance or more. The longest first; none that lies in a longer one. Ids and rooms are left 0.
+// O(surfaces^2).
+[[nodiscard]] std::vector<MapCorridor> FindCorridors(const FreeSpace& space, const Regions& regions, int32_t region,
+                                                     const Outline& outline);
 
 }  // namespace plumb::runtime

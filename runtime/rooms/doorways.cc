@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kMinThickness_m = 0.02, kMaxThickness_m = 0.8;
 constexpr double kStep_m = 0.025;
-constexpr double kMaxDepth_m = 0.5;    // of a passage, from its narrowest place either way
+constexpr double kMaxDepth_m = 0.5;     // of a passage, from its narrowest place either way
 constexpr double kStillNarrow_m = 0.1;  // wider than at the narrowest place by less
 constexpr double kLookBeyond_m = 0.3;
 
@@ -77,7 +77,8 @@ std::optional<Opening> MeasureOpening(const FreeSpace& space, const Regions& reg
   Eigen::Vector2d passage(-across.y(), across.x());
   Eigen::Vector2d p = narrowest.middle();
   p += MiddleOfWall(p, passage, walls).value_or(MiddleOfPassage(space, p, passage, narrowest.width_m())) * passage;
-  const double to_a_m = EdgeOf(at_a, p, -across).value_or(-across.dot(narrowest.a - p)), to_b_m = EdgeOf(at_b, p, across).value_or(across.dot(narrowest.b - p));
+  const double to_a_m = EdgeOf(at_a, p, -across).value_or(-across.dot(narrowest.a - p)),
+               to_b_m = EdgeOf(at_b, p, across).value_or(across.dot(narrowest.b - p));
   Opening opening;
   opening.position = p + 0.5 * (to_b_m - to_a_m) * across;
   opening.width_m = to_a_m + to_b_m;

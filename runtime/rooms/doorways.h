@@ -15,8 +15,10 @@ struct Opening {
   double width_m = 0;
 };
 
-// The opening at a neck: square to the walls beside it and midway between their two faces; where they were not seen, square to the narrowest span
-// and in the middle of where it is narrow. None if it is no doorway: narrower than min_doorway_width_m or wider than passage_width_m.
-[[nodiscard]] std::optional<Opening> MeasureOpening(const FreeSpace& space, const Regions& regions, const Neck& neck, const RoomOptions& options);
+// The opening at a neck: square to the walls beside it and midway between their two faces; where they were not seen, square to the
+// narrowest span and in the middle of where it is narrow. None if it is no doorway: narrower than min_doorway_width_m or wider than
+// passage_width_m.
+[[nodiscard]] std::optional<Opening> MeasureOpening(const FreeSpace& space, const Regions& regions, const Neck& neck,
+                                                    const RoomOptions& options);
 
 }  // namespace plumb::runtime

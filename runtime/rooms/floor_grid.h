@@ -24,12 +24,13 @@ struct FloorGrid {
   // The cell that holds p, clamped to the grid.
   [[nodiscard]] size_t CellAt(const Eigen::Vector2d& p) const {
     const Eigen::Vector2d c = (p - origin) / cell_m;
-    return Index(std::clamp(static_cast<int>(std::floor(c.x())), 0, width - 1), std::clamp(static_cast<int>(std::floor(c.y())), 0, height - 1));
+    return Index(std::clamp(static_cast<int>(std::floor(c.x())), 0, width - 1),
+                 std::clamp(static_cast<int>(std::floor(c.y())), 0, height - 1));
   }
 };
 
-// Calls visit(x, y) for the cells on the way from a to b (grid coordinates, in cells), one after another, until it returns false; neighbours share
-// a side, so that no way of cells that share sides or corners gets across.
+// Calls visit(x, y) for the cells on the way from a to b (grid coordinates, in cells), one after another, until it returns false;
+// neighbours share a side, so that no way of cells that share sides or corners gets across.
 template <class Visit>
 void WalkCells(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Visit& visit) {
   int x = static_cast<int>(std::floor(a.x())), y = static_cast<int>(std::floor(a.y()));

@@ -8,12 +8,13 @@
 namespace plumb::runtime {
 namespace {
 
-constexpr double kSameHeight_m = 0.3;       // keyframes of one stretch, about their mean
-constexpr double kSettledExtent_m = 2.0;    // of a stretch's positions
+constexpr double kSameHeight_m = 0.3;                                  // keyframes of one stretch, about their mean
+constexpr double kSettledExtent_m = 2.0;                               // of a stretch's positions
 constexpr double kMinSensorHeight_m = 0.03, kMaxSensorHeight_m = 2.5;  // above its floor
-constexpr double kMaxCeilingHeight_m = 8.0;  // above the sensor
-constexpr double kOneLevel_m = 0.15;        // surfaces of one level
-constexpr double kMinLevelShare = 0.3;      // of the largest level's area: table tops and ledges are smaller
+constexpr double kMinCeilingHeight_m = 1.8;                            // above the floor
+constexpr double kMaxCeilingHeight_m = 8.0;                            // above the sensor
+constexpr double kOneLevel_m = 0.15;                                   // surfaces of one level
+constexpr double kMinLevelShare = 0.3;                                 // of the largest level's area: table tops and ledges are smaller
 
 // Keyframes that follow each other at one height.
 struct Stretch {
@@ -44,9 +45,11 @@ std::vector<Level> LevelsSeen(const SGraph& graph, const std::vector<bool>& by, 
   std::vector<Level> seen;
   for (const MapSurface& s : graph.surfaces) {
     if (s.kind != kind || s.z_min_m < low_m || s.z_min_m > high_m) continue;
-    if (std::any_of(s.observations.begin(), s.observations.end(), [&](const Observation& o) { return by[o.keyframe]; })) seen.push_back({s.z_min_m, s.area_m2});
+    if (std::any_of(s.observations.begin(), s.observations.end(), [&](const Observation& o) { return by[o.keyframe]; }))
+      seen.push_back({s.z_min_m, s.area_m2});
   }
-  std::sort(seen.begin(), seen.end(), [](const Level& a, const Level& b) { return a.z_m != b.z_m ? a.z_m < b.z_m : a.area_m2 < b.area_m2; });
+  std::sort(seen.begin(), seen.end(),
+            [](const Level& a, const Level& b) { return a.z_m != b.z_m ? a.z_m < b.z_m : a.area_m2 < b.area_m2; });
   std::vector<Level> levels;
   for (const Level& s : seen) {
     if (levels.empty() || s.z_m - levels.back().z_m > kOneLevel_m) {
@@ -75,8 +78,10 @@ std::optional<double> FloorUnder(const SGraph& graph, const std::vector<bool>& b
   return levels.empty() ? std::nullopt : std::optional(levels.front().z_m);
 }
 
-std::optional<double> CeilingOver(const SGraph& graph, const std::vector<bool>& by, double z_m) {
-  const std::vector<Level> levels = LevelsSeen(graph, by, SurfaceKind::kCeiling, z_m, z_m + kMaxCeilingHeight_m);
+// The largest one above a person's head: the undersides of tables are lower.
+std::optional<double> CeilingOver(const SGraph& graph, const std::vector<bool>& by, double z_m, const std::optional<double>& floor_z_m) {
+  const double low_m = std::max(z_m, floor_z_m.value_or(z_m) + (floor_z_m ? kMinCeilingHeight_m : 0));
+  const std::vector<Level> levels = LevelsSeen(graph, by, SurfaceKind::kCeiling, low_m, z_m + kMaxCeilingHeight_m);
   if (levels.empty()) return std::nullopt;
   return std::max_element(levels.begin(), levels.end(), [](const Level& a, const Level& b) { return a.area_m2 < b.area_m2; })->z_m;
 }
@@ -95,8 +100,10 @@ std::vector<MapFloor> FindFloors(const SGraph& graph, const RoomOptions& options
   const bool floors_seen = HasFloors(graph);
   std::vector<MapFloor> floors;
   for (const Stretch& s : stretches) {
-    const bool apart = std::all_of(floors.begin(), floors.end(), [&](const MapFloor& f) { return std::abs(f.sensor_z_m - s.z_m) >= options.storey_step_m; });
-    const bool settled = s.box.diagonal().norm() >= kSettledExtent_m && (!floors_seen || FloorUnder(graph, NearHeight(graph.keyframes, s.z_m), s.z_m));
+    const bool apart = std::all_of(floors.begin(), floors.end(),
+                                   [&](const MapFloor& f) { return std::abs(f.sensor_z_m - s.z_m) >= options.storey_step_m; });
+    const bool settled =
+        s.box.diagonal().norm() >= kSettledExtent_m && (!floors_seen || FloorUnder(graph, NearHeight(graph.keyframes, s.z_m), s.z_m));
     if (floors.empty() || (apart && settled)) floors.emplace_back().sensor_z_m = s.z_m;
   }
   std::sort(floors.begin(), floors.end(), [](const MapFloor& a, const MapFloor& b) { return a.sensor_z_m < b.sensor_z_m; });
@@ -112,7 +119,7 @@ std::vector<MapFloor> FindFloors(const SGraph& graph, const RoomOptions& options
     floor.id = static_cast<uint32_t>(i);
     const std::vector<bool> by = NearHeight(graph.keyframes, floor.sensor_z_m);
     floor.floor_z_m = FloorUnder(graph, by, floor.sensor_z_m);
-    floor.ceiling_z_m = CeilingOver(graph, by, floor.sensor_z_m);
+    floor.ceiling_z_m = CeilingOver(graph, by, floor.sensor_z_m, floor.floor_z_m);
   }
   return floors;
 }

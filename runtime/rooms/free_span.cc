@@ -7,10 +7,10 @@
 namespace plumb::runtime {
 namespace {
 
-constexpr int kDirections = 48;      // in half a turn
+constexpr int kDirections = 48;  // in half a turn
 constexpr double kNearby_m = 0.3;
 constexpr float kAsClear = 0.8F;
-constexpr int kSeen_cells = 2;       // a jamb is this close to where the free space ends
+constexpr int kSeen_cells = 2;  // a jamb is this close to where the free space ends
 constexpr double kParallelCos = 0.966;
 constexpr double kBeside_m = 0.45;   // a wall's face from the narrowest place of its opening
 constexpr double kAtEnd_m = 0.3;     // along the wall, from the opening's edge to where the wall was seen

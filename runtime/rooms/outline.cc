@@ -10,11 +10,11 @@
 namespace plumb::runtime {
 namespace {
 
-constexpr double kOnWall_m = 0.15;       // of a border from the wall that it follows
-constexpr double kPastEnd_m = 0.1;       // beyond the wall's ends
+constexpr double kOnWall_m = 0.15;  // of a border from the wall that it follows
+constexpr double kPastEnd_m = 0.1;  // beyond the wall's ends
 constexpr double kFacingCos = 0.75;
-constexpr int kSmoothing = 4;            // steps either side that tell a border's direction
-constexpr double kShortRun_m = 0.16;     // shorter ones are noise
+constexpr int kSmoothing = 4;         // steps either side that tell a border's direction
+constexpr double kShortRun_m = 0.16;  // shorter ones are noise
 constexpr double kTolerance_m = 0.08;
 constexpr double kCornerSin = 0.26, kCornerReach_m = 0.35;
 constexpr double kMinHole_m2 = 0.05;
@@ -61,7 +61,9 @@ class OutlineTracer {
   }
 
  private:
-  [[nodiscard]] Eigen::Vector2d Corner(const Eigen::Vector2i& c) const { return space_.grid.origin + space_.grid.cell_m * c.cast<double>(); }
+  [[nodiscard]] Eigen::Vector2d Corner(const Eigen::Vector2i& c) const {
+    return space_.grid.origin + space_.grid.cell_m * c.cast<double>();
+  }
 
   // What the step is on: a wall if one is near and faces the region.
   [[nodiscard]] int WhatIsAt(const Border& border, size_t i) const {
@@ -145,7 +147,8 @@ class OutlineTracer {
       }
       if (run.on != kUnseen) continue;
       const Eigen::Vector2d from = Corner(border[run.first].from), to = Corner(border[(run.first + run.count) % border.size()].from);
-      longest_unseen_m = std::max(longest_unseen_m, run.count == border.size() ? static_cast<double>(run.count) * space_.grid.cell_m : (to - from).norm());
+      longest_unseen_m =
+          std::max(longest_unseen_m, run.count == border.size() ? static_cast<double>(run.count) * space_.grid.cell_m : (to - from).norm());
     }
   }
 

@@ -28,7 +28,8 @@ RangeProfile ProfileOf(const Keyframe& keyframe, const HeightBand& band, double 
   profile.rays.resize(4 * kBinsPerQuadrant);
   const Eigen::Matrix3f R = keyframe.T_map_kf.linear().cast<float>();
   const double z_m = keyframe.T_map_kf.translation().z();
-  const float low = static_cast<float>(band.low_m - z_m), high = static_cast<float>(band.high_m - z_m), max_range = static_cast<float>(max_range_m);
+  const float low = static_cast<float>(band.low_m - z_m), high = static_cast<float>(band.high_m - z_m),
+              max_range = static_cast<float>(max_range_m);
   for (const Eigen::Vector3f& point : keyframe.points) {
     const Eigen::Vector3f p = R * point;
     const float range = p.head<2>().norm();

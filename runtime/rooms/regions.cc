@@ -92,7 +92,8 @@ class Watershed {
         const int32_t label = label_[grid.Index(x, y)];
         if (label < 0) continue;
         const int32_t root = Root(label);
-        if (std::find(roots.begin(), roots.begin() + static_cast<ptrdiff_t>(count), root) == roots.begin() + static_cast<ptrdiff_t>(count)) roots[count++] = root;
+        if (std::find(roots.begin(), roots.begin() + static_cast<ptrdiff_t>(count), root) == roots.begin() + static_cast<ptrdiff_t>(count))
+          roots[count++] = root;
       }
     }
     return count;
@@ -119,7 +120,8 @@ class Watershed {
     }
     const auto [into, from] = std::minmax(a, b);
     basins_[static_cast<size_t>(from)].parent = into;
-    basins_[static_cast<size_t>(into)].peak_m = std::max(basins_[static_cast<size_t>(into)].peak_m, basins_[static_cast<size_t>(from)].peak_m);
+    basins_[static_cast<size_t>(into)].peak_m =
+        std::max(basins_[static_cast<size_t>(into)].peak_m, basins_[static_cast<size_t>(from)].peak_m);
   }
 
   bool KnownApart(int32_t a, int32_t b) {
@@ -130,7 +132,8 @@ class Watershed {
   }
 
   bool AreRooms(int32_t a, int32_t b, size_t cell) {
-    const double narrower_m = 2 * static_cast<double>(std::min(basins_[static_cast<size_t>(a)].peak_m, basins_[static_cast<size_t>(b)].peak_m));
+    const double narrower_m =
+        2 * static_cast<double>(std::min(basins_[static_cast<size_t>(a)].peak_m, basins_[static_cast<size_t>(b)].peak_m));
     const double at_cell_m = 2 * static_cast<double>(clearance_m_[cell]);
     if (narrower_m < kDoorInWallRatio * at_cell_m || at_cell_m > options_.passage_width_m) return false;
     const FreeSpan span = NarrowestSpan(space_, clearance_m_, cell, options_.passage_width_m);
@@ -197,7 +200,8 @@ void AbsorbSmall(const FloorGrid& grid, size_t min_cells, std::vector<int32_t>& 
   for (size_t r = 0; r < sizes.size(); ++r) {
     if (sizes[r] < min_cells) small.push_back(static_cast<int32_t>(r));
   }
-  std::stable_sort(small.begin(), small.end(), [&](int32_t a, int32_t b) { return sizes[static_cast<size_t>(a)] < sizes[static_cast<size_t>(b)]; });
+  std::stable_sort(small.begin(), small.end(),
+                   [&](int32_t a, int32_t b) { return sizes[static_cast<size_t>(a)] < sizes[static_cast<size_t>(b)]; });
   for (const int32_t r : small) {
     if (sizes[static_cast<size_t>(r)] >= min_cells) continue;  // has grown
     std::map<int32_t, size_t> beside;
@@ -219,7 +223,9 @@ void AbsorbSmall(const FloorGrid& grid, size_t min_cells, std::vector<int32_t>& 
   }
 }
 
-bool Touch(const FloorGrid& grid, size_t a, size_t b) { return std::abs(grid.X(a) - grid.X(b)) <= 1 && std::abs(grid.Y(a) - grid.Y(b)) <= 1; }
+bool Touch(const FloorGrid& grid, size_t a, size_t b) {
+  return std::abs(grid.X(a) - grid.X(b)) <= 1 && std::abs(grid.Y(a) - grid.Y(b)) <= 1;
+}
 
 // One per connected stretch of border.
 std::vector<Neck> FindNecks(const FloorGrid& grid, const Regions& regions) {

@@ -24,9 +24,9 @@ struct Regions {
   std::vector<Neck> necks;         // by regions, then cells
 };
 
-// A watershed of the clearance: cells join in descending order, and where two regions meet they become one unless they are rooms with a door between.
-// With the width w of the neck where they meet (ShortestSpan) and the diameter D of the largest circle in the narrower of the two, they stay apart if
-// something was seen at both ends of the neck, and
+// A watershed of the clearance: cells join in descending order, and where two regions meet they become one unless they are rooms with a
+// door between. With the width w of the neck where they meet (ShortestSpan) and the diameter D of the largest circle in the narrower of the
+// two, they stay apart if something was seen at both ends of the neck, and
 //   w <= door_width_m and D >= 1.5 w: a neck between wider spaces; or
 //   w <= door_width_m and D >= 1.05 w and the neck is an opening in a wall (IsInWall): as wide as the door is many a corridor; or
 //   w <= passage_width_m and D >= 1.3 w and the neck is an opening in a wall.

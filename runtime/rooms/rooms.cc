@@ -41,7 +41,12 @@ MapRoom RoomOf(const Outline& outline, bool visited) {
 class FloorLayers {
  public:
   FloorLayers(const SGraph& graph, const MapFloor& floor, const RoomOptions& options, UpperLayers* out)
-      : graph_(graph), floor_(floor), options_(options), out_(*out), space_(FindFreeSpace(graph, floor, options)), regions_(FindRegions(space_, options)) {}
+      : graph_(graph),
+        floor_(floor),
+        options_(options),
+        out_(*out),
+        space_(FindFreeSpace(graph, floor, options)),
+        regions_(FindRegions(space_, options)) {}
 
   void AddRooms() {
     const std::vector<Outline> outlines = TraceOutlines(space_, regions_);
@@ -93,7 +98,9 @@ class FloorLayers {
 }  // namespace
 
 std::string RoomOptions::Check() const {
-  const auto bad = [](const char* field, double value, const char* rule) { return fmt::format("RoomOptions.{} = {}; must be {}", field, value, rule); };
+  const auto bad = [](const char* field, double value, const char* rule) {
+    return fmt::format("RoomOptions.{} = {}; must be {}", field, value, rule);
+  };
   if (!(storey_step_m >= 0.5)) return bad("storey_step_m", storey_step_m, ">= 0.5");
   if (!(band_low_m >= 0)) return bad("band_low_m", band_low_m, ">= 0");
   if (!(band_high_m > band_low_m)) return bad("band_high_m", band_high_m, "> band_low_m");

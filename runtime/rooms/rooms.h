@@ -19,22 +19,22 @@ using Polygon2 = std::vector<Eigen::Vector2d>;  // not closed: the last point is
 
 struct MapFloor {
   uint32_t id = 0;
-  double sensor_z_m = 0;                          // where the robot settled
-  std::optional<double> floor_z_m, ceiling_z_m;   // where seen; a planar laser sees neither
-  std::vector<uint32_t> keyframes;                // those on stairs belong to the nearer floor
+  double sensor_z_m = 0;                         // where the robot settled
+  std::optional<double> floor_z_m, ceiling_z_m;  // where seen; a planar laser sees neither
+  std::vector<uint32_t> keyframes;               // those on stairs belong to the nearer floor
 };
 
 struct MapRoom {
   uint32_t id = 0, floor = 0;
-  Polygon2 polygon;              // counter-clockwise, on the surfaces that bound it
-  std::vector<Polygon2> holes;   // clockwise: pillars, cores
-  double area_m2 = 0;            // of the polygon less its holes
+  Polygon2 polygon;                                  // counter-clockwise, on the surfaces that bound it
+  std::vector<Polygon2> holes;                       // clockwise: pillars, cores
+  double area_m2 = 0;                                // of the polygon less its holes
   Eigen::Vector2d center = Eigen::Vector2d::Zero();  // area centroid of `polygon`
-  std::vector<uint32_t> surfaces;   // ids of the wall surfaces on its outline, ascending
+  std::vector<uint32_t> surfaces;                    // ids of the wall surfaces on its outline, ascending
   std::vector<uint32_t> doorways;
-  double covered_ratio = 0;      // share of the outline, without doorways, that surfaces cover
-  bool closed = false;           // surfaces cover half of the outline or more, and nowhere else is more than 0.6 m of it unseen
-  bool visited = false;          // a keyframe stands in it; else it was only looked into
+  double covered_ratio = 0;  // share of the outline, without doorways, that surfaces cover
+  bool closed = false;       // surfaces cover half of the outline or more, and nowhere else is more than 0.6 m of it unseen
+  bool visited = false;      // a keyframe stands in it; else it was only looked into
 };
 
 struct MapDoorway {
@@ -49,7 +49,7 @@ struct MapDoorway {
 // Two parallel walls that face each other, with free space between, in a room that is not closed.
 struct MapCorridor {
   uint32_t id = 0, room = 0;
-  uint32_t surface_a = 0, surface_b = 0;  // ids of the surfaces
+  uint32_t surface_a = 0, surface_b = 0;                                           // ids of the surfaces
   Eigen::Vector2d start = Eigen::Vector2d::Zero(), end = Eigen::Vector2d::Zero();  // of the centre line, as far as both walls run
   double width_m = 0;
 };

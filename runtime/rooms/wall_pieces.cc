@@ -6,14 +6,14 @@
 namespace plumb::runtime {
 namespace {
 
-constexpr double kColumn_m = 0.1;         // that of the surfaces' cells
-constexpr double kMaxGap_m = 0.35;        // between seen cells of one piece; a door is wider
+constexpr double kColumn_m = 0.1;   // that of the surfaces' cells
+constexpr double kMaxGap_m = 0.35;  // between seen cells of one piece; a door is wider
 constexpr double kMinPiece_m = 0.2;
-constexpr double kTall_m = 1.3;           // above the band's lower edge: no furniture that one could see over
-constexpr double kBeyond_m = 0.3;         // a ray that got this far beyond a column went over it
-constexpr int kOverVotes = 2;            // one keyframe that sees over it counts as much as two that do not
-constexpr double kSquareCos = 0.3;        // a grazing ray tells little
-constexpr double kMaxSeenOver = 0.5;      // share of a wall's columns: windows
+constexpr double kTall_m = 1.3;       // above the band's lower edge: no furniture that one could see over
+constexpr double kBeyond_m = 0.3;     // a ray that got this far beyond a column went over it
+constexpr int kOverVotes = 2;         // one keyframe that sees over it counts as much as two that do not
+constexpr double kSquareCos = 0.3;    // a grazing ray tells little
+constexpr double kMaxSeenOver = 0.5;  // share of a wall's columns: windows
 
 // What was seen of one column of a wall within the band: the first and last cell along the wall; nothing if first > last.
 struct Column {
@@ -50,7 +50,8 @@ bool SeenOver(const Eigen::Vector2d& at, const MapSurface& s, const std::vector<
   return kOverVotes * over > not_over;
 }
 
-bool IsFurniture(const MapSurface& s, const std::vector<Column>& columns, const HeightBand& band, const std::vector<RangeProfile>& profiles) {
+bool IsFurniture(const MapSurface& s, const std::vector<Column>& columns, const HeightBand& band,
+                 const std::vector<RangeProfile>& profiles) {
   if (s.z_max_m >= band.low_m + kTall_m) return false;
   const Eigen::Vector2d along = (s.end - s.start).normalized();
   size_t count = 0, seen_over = 0;

@@ -144,13 +144,14 @@ RunInfo Describe(const LocalizeFlags& flags, const CLI::App& sub, const AGraph& 
 
 Expected<void> WriteRun(const LocalizeFlags& flags, const AGraph& plan, const Results& results, const runtime::Localizer& localizer,
                         const runtime::DeviationReport& report, const RunInfo& info) {
+  const runtime::UpperLayers layers = runtime::DeriveUpperLayers(localizer.map());
   const std::pair<const char*, std::string> files[] = {
       {"trajectory.tum", runtime::WriteTum(results.online)},
       {"trajectory_smoothed.tum", runtime::WriteTum(localizer.SmoothedTrajectory())},
       {"verdicts.csv", VerdictsToCsv(results.verdicts)},
       {"timing.csv", TimingToCsv(results.timing)},
       {"map.ply", PointsToPly(AsBuiltCloud(localizer, flags.map_voxel_m), "as built, plan frame, metres")},
-      {"sgraph.json", runtime::SGraphToJson(localizer.map(), runtime::DeriveUpperLayers(localizer.map()), localizer.T_plan_map())},
+      {"sgraph.json", runtime::SGraphToJson(localizer.map(), layers, localizer.T_plan_map())},
       {"deviations.json", runtime::DeviationsToJson(plan, report)},
       {"run.json", RunInfoToJson(info)},
   };

@@ -18,7 +18,8 @@ TEST(SquaredCellDistances, AreThoseToTheNearestMarkedCell) {
     double nearest = std::numeric_limits<double>::infinity();
     for (size_t k = 0; k < marked.size(); ++k) {
       if (marked[k] == 0) continue;
-      const double dx = static_cast<double>(i % kWidth) - static_cast<double>(k % kWidth), dy = static_cast<double>(i / kWidth) - static_cast<double>(k / kWidth);
+      const double dx = static_cast<double>(i % kWidth) - static_cast<double>(k % kWidth),
+                   dy = static_cast<double>(i / kWidth) - static_cast<double>(k / kWidth);
       nearest = std::min(nearest, dx * dx + dy * dy);
     }
     EXPECT_EQ(static_cast<double>(squared[i]), nearest) << i;

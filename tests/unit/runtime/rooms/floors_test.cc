@@ -28,11 +28,11 @@ void AddLevel(SGraph& graph, SurfaceKind kind, double z_m, double area_m2, uint3
 // 5 m on one floor, stairs with a landing, 3 m on the next, 2.8 m above; the sensor 0.6 m above the floor.
 SGraph UpTheStairs() {
   SGraph graph;
-  for (int i = 0; i <= 10; ++i) AddKeyframe(graph, 0.5 * i, 0.6);            // 0 to 10
-  for (int i = 1; i <= 4; ++i) AddKeyframe(graph, 5 + 0.4 * i, 0.6 + 0.35 * i);  // 11 to 14
-  for (int i = 0; i <= 2; ++i) AddKeyframe(graph, 6.6, 2.0);                 // 15 to 17: on the landing
+  for (int i = 0; i <= 10; ++i) AddKeyframe(graph, 0.5 * i, 0.6);                  // 0 to 10
+  for (int i = 1; i <= 4; ++i) AddKeyframe(graph, 5 + 0.4 * i, 0.6 + 0.35 * i);    // 11 to 14
+  for (int i = 0; i <= 2; ++i) AddKeyframe(graph, 6.6, 2.0);                       // 15 to 17: on the landing
   for (int i = 1; i <= 3; ++i) AddKeyframe(graph, 6.6 - 0.4 * i, 2.0 + 0.35 * i);  // 18 to 20
-  for (int i = 0; i <= 6; ++i) AddKeyframe(graph, 5 - 0.5 * i, 3.4);         // 21 to 27
+  for (int i = 0; i <= 6; ++i) AddKeyframe(graph, 5 - 0.5 * i, 3.4);               // 21 to 27
   return graph;
 }
 
@@ -43,6 +43,7 @@ TEST(FindFloors, FindsTwoFloorsJoinedByStairs) {
   AddLevel(graph, SurfaceKind::kFloor, 1.4, 3, 12, 17);  // the landing
   AddLevel(graph, SurfaceKind::kFloor, 2.8, 15, 21, 27);
   AddLevel(graph, SurfaceKind::kCeiling, 2.6, 12, 0, 10);
+  AddLevel(graph, SurfaceKind::kCeiling, 0.7, 14, 0, 10);  // undersides of tables
   const std::vector<MapFloor> floors = FindFloors(graph, {});
   ASSERT_EQ(floors.size(), 2u);
   EXPECT_EQ(floors[0].id, 0u);

@@ -18,9 +18,9 @@ struct Scene {
     floor.floor_z_m = 0;
     floor.keyframes = {0};
   }
-  // Points at distance y and height z, from x = -2 to 2.
+  // Points at distance y and height z, all over the quarter turn ahead.
   void See(double y, double z_m) {
-    for (int i = -100; i <= 100; ++i) graph.keyframes[0].points.push_back(Eigen::Vector3d(0.02 * i, y, z_m - 0.6).cast<float>());
+    for (int i = -100; i <= 100; ++i) graph.keyframes[0].points.push_back(Eigen::Vector3d(0.01 * i * y, y, z_m - 0.6).cast<float>());
   }
   // A wall at y = 2 from x = -2 to 2 that was seen at these heights and is `top_m` high.
   void AddWall(const std::vector<double>& heights_m, double top_m) {
@@ -93,7 +93,7 @@ TEST(FindFreeSpace, KeepsItsGridWithinTheLimit) {
   options.max_cells = 1e4;
   const FreeSpace space = FindFreeSpace(scene.graph, scene.floor, options);
   EXPECT_LE(space.grid.size(), 10000u);
-  EXPECT_DOUBLE_EQ(space.grid.cell_m, 0.1);
+  EXPECT_DOUBLE_EQ(space.grid.cell_m, 0.2);
   EXPECT_EQ(space.cells[space.grid.CellAt({0, 6})], CellState::kFree);
 }
 

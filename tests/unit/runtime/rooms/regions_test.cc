@@ -20,7 +20,8 @@ using Eigen::Vector2d;
 Box Between(double x0, double y0, double x1, double y1) { return {Vector2d(x0, y0), Vector2d(x1, y1)}; }
 
 // Free space drawn by hand: boxes of free cells, hits around them but for what lies in `unseen`.
-FreeSpace Draw(const std::vector<Box>& free, const std::vector<WallPiece>& walls, const std::vector<Box>& unseen = {}, const std::vector<Box>& blocked = {}) {
+FreeSpace Draw(const std::vector<Box>& free, const std::vector<WallPiece>& walls, const std::vector<Box>& unseen = {},
+               const std::vector<Box>& blocked = {}) {
   FreeSpace space;
   space.walls = walls;
   Box all;
@@ -52,7 +53,8 @@ void AddWalls(const Box& room, uint32_t first, std::vector<WallPiece>* walls) {
 }
 
 TEST(FindRegions, LeavesAnLShapedRoomWhole) {
-  const std::vector<WallPiece> walls = {Wall(0, 0, 0, 6, 0), Wall(1, 6, 0, 6, 3), Wall(2, 6, 3, 3, 3), Wall(3, 3, 3, 3, 6), Wall(4, 3, 6, 0, 6), Wall(5, 0, 6, 0, 0)};
+  const std::vector<WallPiece> walls = {Wall(0, 0, 0, 6, 0), Wall(1, 6, 0, 6, 3), Wall(2, 6, 3, 3, 3),
+                                        Wall(3, 3, 3, 3, 6), Wall(4, 3, 6, 0, 6), Wall(5, 0, 6, 0, 0)};
   const FreeSpace space = Draw({Between(0, 0, 6, 3), Between(0, 3, 3, 6)}, walls);
   const Regions regions = FindRegions(space, {});
   ASSERT_EQ(regions.count, 1);
@@ -113,7 +115,8 @@ TEST(FindRegions, PartsAWidePassageOnlyWhereItIsInAWall) {
 
 TEST(FindRegions, PartsACorridorHardlyWiderThanItsDoor) {
   const std::vector<Box> free = {Between(0, 0, 4, 4), Between(0, -1.2, 8, -0.2), Between(1.5, -0.3, 2.4, 0.1)};
-  const std::vector<WallPiece> walls = {Wall(0, 0, 0, 1.5, 0), Wall(0, 2.4, 0, 4, 0), Wall(1, 8, -0.2, 2.4, -0.2), Wall(1, 1.5, -0.2, 0, -0.2), Wall(2, 0, -1.2, 8, -1.2)};
+  const std::vector<WallPiece> walls = {Wall(0, 0, 0, 1.5, 0), Wall(0, 2.4, 0, 4, 0), Wall(1, 8, -0.2, 2.4, -0.2),
+                                        Wall(1, 1.5, -0.2, 0, -0.2), Wall(2, 0, -1.2, 8, -1.2)};
   EXPECT_EQ(FindRegions(Draw(free, walls), {}).count, 2);
 }
 

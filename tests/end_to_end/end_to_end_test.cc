@@ -4,6 +4,7 @@
 #include <unistd.h>
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -11,6 +12,7 @@
 
 #include "runtime/sources/recording.h"
 #include "schema/files.h"
+#include "tests/support/room_overlap.h"
 
 namespace plumb {
 namespace {
@@ -78,6 +80,25 @@ TEST_F(EndToEnd, LocalizesAndFindsTheDeviation) {
   EXPECT_EQ(evaluation.at("walls_missed"), 0);
   EXPECT_EQ(evaluation.at("walls_found"), 1);
   EXPECT_LT(evaluation.at("max_error_translation_m").get<double>(), 0.03);
+}
+
+TEST_F(EndToEnd, FindsTheRoomsThatItDroveThrough) {
+  EXPECT_EQ(Plumb(folder_, "inspect plan.agraph --json > plan.json"), 0);
+  const Json plan = ReadJson(folder_ / "plan.json"), sgraph = ReadJson(folder_ / "run/sgraph.json");
+  EXPECT_EQ(sgraph.at("frame"), "plan");
+  EXPECT_EQ(sgraph.at("floors").size(), 1u);
+  int visited = 0;
+  for (const Json& room : sgraph.at("rooms")) {
+    if (!room.at("visited").get<bool>()) continue;
+    ++visited;
+    EXPECT_GT(test::BestOverlap(test::RingOf(room.at("polygon")), plan.at("rooms")), 0.8) << room.at("id");
+  }
+  EXPECT_GE(visited, 1);
+  EXPECT_GE(sgraph.at("doorways").size(), 4u);
+  for (const Json& doorway : sgraph.at("doorways")) {
+    const auto near = [&](const Json& planned) { return (test::PointOf(planned.at("position")) - test::PointOf(doorway.at("position"))).norm() < 0.1; };
+    EXPECT_TRUE(std::any_of(plan.at("doorways").begin(), plan.at("doorways").end(), near)) << doorway;
+  }
 }
 
 TEST_F(EndToEnd, ReportsAndChecks) {

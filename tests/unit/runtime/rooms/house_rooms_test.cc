@@ -10,6 +10,7 @@
 #include "runtime/rooms/rooms.h"
 #include "runtime/rooms/sgraph_json.h"
 #include "tests/support/house.h"
+#include "tests/support/room_overlap.h"
 #include "tests/support/synthetic_lidar.h"
 
 namespace plumb::runtime {
@@ -39,42 +40,12 @@ const Json& MappedHouse() {
   return kMapped;
 }
 
-bool Inside(const std::vector<Vector2d>& ring, const Vector2d& p) {
-  bool inside = false;
-  for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-    const Vector2d &a = ring[i], &b = ring[j];
-    if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y())) inside = !inside;
-  }
-  return inside;
-}
-
-std::vector<Vector2d> RingOf(const Json& polygon) {
-  std::vector<Vector2d> ring;
-  for (const Json& p : polygon) ring.emplace_back(p.at(0).get<double>(), p.at(1).get<double>());
-  return ring;
-}
-
-// Intersection over union, on a grid of 5 cm over the house.
-double Overlap(const std::vector<Vector2d>& a, const std::vector<Vector2d>& b) {
-  int both = 0, either = 0;
-  for (double y = -0.5; y < 6.5; y += 0.05) {
-    for (double x = -0.5; x < 9.5; x += 0.05) {
-      const bool in_a = Inside(a, {x, y}), in_b = Inside(b, {x, y});
-      both += in_a && in_b ? 1 : 0;
-      either += in_a || in_b ? 1 : 0;
-    }
-  }
-  return static_cast<double>(both) / either;
-}
-
 TEST(DeriveUpperLayers, FindsTheRoomsOfTheHouse) {
   const AGraph house = test::MakeHouse();
   const Json& rooms = MappedHouse().at("rooms");
   EXPECT_EQ(rooms.size(), house.rooms.size());
   for (const Room& planned : house.rooms) {
-    double best = 0;
-    for (const Json& room : rooms) best = std::max(best, Overlap(planned.polygon, RingOf(room.at("polygon"))));
-    EXPECT_GT(best, 0.93) << planned.name;
+    EXPECT_GT(test::BestOverlap(planned.polygon, rooms), 0.93) << planned.name;
   }
   for (const Json& room : rooms) {
     EXPECT_TRUE(room.at("closed").get<bool>());
@@ -91,7 +62,7 @@ TEST(DeriveUpperLayers, FindsTheDoorwaysThatAreOpen) {
   for (size_t i = 0; i < 2; ++i) {
     const Doorway& planned = house.doorways[i];
     const auto is_near = [&](const Json& d) {
-      const Vector2d at(d.at("position").at(0).get<double>(), d.at("position").at(1).get<double>());
+      const Vector2d at = test::PointOf(d.at("position"));
       return (at - planned.position.head<2>()).norm() < 0.1 && std::abs(d.at("width_m").get<double>() - planned.width_m) < 0.1;
     };
     EXPECT_TRUE(std::any_of(doorways.begin(), doorways.end(), is_near)) << planned.name << doorways;

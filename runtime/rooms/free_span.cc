@@ -19,17 +19,17 @@ constexpr double kRunsOn_m = 0.3;
 constexpr double kRunsPast_m = 0.3;  // either side of the opening
 constexpr double kAtCorner_m = 0.2;
 
-bool IsFree(const FreeSpace& space, const Eigen::Vector2d& p) {
-  const Eigen::Vector2d c = (p - space.grid.origin) / space.grid.cell_m;
-  const int x = static_cast<int>(std::floor(c.x())), y = static_cast<int>(std::floor(c.y()));
-  return space.grid.Contains(x, y) && space.cells[space.grid.Index(x, y)] == CellState::kFree;
-}
-
 Eigen::Vector2d EndTowards(const FreeSpace& space, const Eigen::Vector2d& p, const Eigen::Vector2d& along, double reach_m) {
-  const double step_m = 0.5 * space.grid.cell_m;
-  double at_m = 0;
-  while (at_m < reach_m && IsFree(space, p + (at_m + step_m) * along)) at_m += step_m;
-  return p + (at_m + 0.5 * step_m) * along;
+  const FloorGrid& grid = space.grid;
+  const Eigen::Vector2d step = 0.5 * along;
+  Eigen::Vector2d c = (p - grid.origin) / grid.cell_m;
+  for (auto left = static_cast<int>(std::ceil(2 * reach_m / grid.cell_m)); left > 0; --left) {
+    const Eigen::Vector2d next = c + step;
+    const int x = static_cast<int>(std::floor(next.x())), y = static_cast<int>(std::floor(next.y()));
+    if (!grid.Contains(x, y) || space.cells[grid.Index(x, y)] != CellState::kFree) break;
+    c = next;
+  }
+  return grid.origin + grid.cell_m * (c + 0.5 * step);
 }
 
 bool Seen(const FreeSpace& space, const Eigen::Vector2d& p) {
@@ -66,7 +66,9 @@ FreeSpan ShortestSpan(const FreeSpace& space, const Eigen::Vector2d& p, double r
   for (int i = 0; i < kDirections; ++i) {
     const double angle_rad = std::numbers::pi * i / kDirections;
     const FreeSpan span = SpanAlong(space, p, {std::cos(angle_rad), std::sin(angle_rad)}, reach_m);
-    if (i == 0 || span.width_m() < best.width_m()) best = span;
+    if (i > 0 && span.width_m() >= best.width_m()) continue;
+    best = span;
+    reach_m = std::min(reach_m, best.width_m());  // what reaches further is longer
   }
   return best;
 }
@@ -79,7 +81,7 @@ FreeSpan NarrowestSpan(const FreeSpace& space, const std::vector<float>& clearan
     for (int x = std::max(0, grid.X(cell) - reach); x <= std::min(grid.width - 1, grid.X(cell) + reach); x += 2) {
       const size_t i = grid.Index(x, y);
       if (clearance_m[i] < kAsClear * clearance_m[cell]) continue;
-      const FreeSpan span = ShortestSpan(space, grid.Center(i), reach_m);
+      const FreeSpan span = ShortestSpan(space, grid.Center(i), std::min(reach_m, best.width_m()));
       if (span.width_m() < best.width_m()) best = span;
     }
   }

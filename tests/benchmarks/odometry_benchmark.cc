@@ -19,6 +19,7 @@
 
 #include "runtime/mapping/mapper.h"
 #include "runtime/odometry/odometry.h"
+#include "runtime/rooms/rooms.h"
 #include "tests/support/house.h"
 #include "tests/support/synthetic_lidar.h"
 
@@ -37,13 +38,13 @@ class Timer {
  public:
   void Start() { start_ = std::chrono::steady_clock::now(); }
   void Stop() { times_ms_.push_back(std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count()); }
-  [[nodiscard]] std::string Summary() {
+  [[nodiscard]] std::string Summary(const char* per = "scan") {
     std::sort(times_ms_.begin(), times_ms_.end());
     double sum_ms = 0;
     for (const double ms : times_ms_) sum_ms += ms;
     if (times_ms_.empty()) return "no scans";
     const auto n = times_ms_.size();
-    return fmt::format("{:.2f} ms/scan mean, {:.2f} p95, {:.2f} max", sum_ms / static_cast<double>(n), times_ms_[n * 95 / 100], times_ms_.back());
+    return fmt::format("{:.2f} ms/{} mean, {:.2f} p95, {:.2f} max", sum_ms / static_cast<double>(n), per, times_ms_[n * 95 / 100], times_ms_.back());
   }
 
  private:
@@ -233,6 +234,12 @@ void Run(const Input& input, bool surfaces, const std::string& points_path) {
              std::count_if(mapper.graph().surfaces.begin(), mapper.graph().surfaces.end(), [](const MapSurface& s) { return !s.observations.empty(); }));
   PrintThickness(mapper.graph());
   if (!points_path.empty()) WritePoints(points_path, mapper.graph(), T_truth_map.value_or(Eigen::Isometry3d::Identity()));
+  Timer rooms_timer;
+  rooms_timer.Start();
+  const UpperLayers layers = DeriveUpperLayers(mapper.graph());
+  rooms_timer.Stop();
+  fmt::print("rooms:    {}; {} floors, {} rooms, {} doorways, {} corridors\n", rooms_timer.Summary("run"), layers.floors.size(), layers.rooms.size(),
+             layers.doorways.size(), layers.corridors.size());
   if (surfaces) PrintSurfaces(mapper.graph(), T_plan_odom.value_or(Eigen::Isometry3d::Identity()));
 }
 

@@ -19,6 +19,7 @@ constexpr double kOff_m = 1e-4;
 constexpr double kAgainst = 0.96;    // cosine between sides that face each other
 constexpr double kSkewEnds = 0.87;   // ... between ends of walls: the two lines of a wall often end askew
 constexpr double kMinEnd_m = 0.03;   // narrower ends are no walls
+constexpr double kBeyond_m = 0.15;   // from the faces of a wall into the rooms beside it
 constexpr double kSillShare = 0.85;  // a window's line runs from jamb to jamb
 
 // A gap between two sides of walls, as a rectangle: `from` to `to` and half the depth to both sides.
@@ -61,7 +62,11 @@ class OpeningPlaces {
 class OpeningFinder {
  public:
   OpeningFinder(const Drawing& drawing, const std::vector<uint32_t>& paths, const Outline& outline, const OpeningOptions& options)
-      : drawing_(drawing), paths_(paths), outline_(outline), options_(options), symbols_(drawing, paths, options) {}
+      : drawing_(drawing), paths_(paths), outline_(outline), options_(options), symbols_(drawing, paths, options) {
+    std::vector<Eigen::AlignedBox2d> boxes;
+    for (const DrawnSpace& space : drawing.spaces) boxes.push_back(BoxOf(space.outline));
+    rooms_ = BoxTree<2>(std::move(boxes));
+  }
 
   std::vector<DrawnOpening> Run() {
     AddGaps();
@@ -69,7 +74,7 @@ class OpeningFinder {
       if (!symbols_.IsUsed(p)) AddFromSymbol(p);
     }
     for (DrawnOpening& framed : FindFramedDoors(drawing_, outline_.mass())) {
-      if (!IsKnown(framed)) Keep(std::move(framed));
+      if (!IsKnown(framed) && !IsWithinARoom(framed)) Keep(std::move(framed));
     }
     return std::move(out_);
   }
@@ -177,7 +182,18 @@ class OpeningFinder {
     if (width > (gap.between_ends ? options_.max_bare_gap_m : options_.max_bare_end_gap_m)) return false;
     const uint32_t source = outline_.sides()[gap.side_a].source;
     if (source < drawing_.paths.size()) o.location = drawing_.paths[source].location;
-    return true;
+    return !IsWithinARoom(o);
+  }
+
+  // On both of its sides is one room that the drawing outlines: a gap in what stands in the room, as toilet stalls and stairs.
+  bool IsWithinARoom(const DrawnOpening& o) const {
+    const Eigen::Vector2d across = (0.5 * o.depth_m + kBeyond_m) * Perp(o.along());
+    bool within = false;
+    rooms_.ForEachIn(Eigen::AlignedBox2d(o.middle()), [&](uint32_t r) {
+      const auto& outline = drawing_.spaces[r].outline;
+      within = within || (Contains(outline, o.middle() + across) && Contains(outline, o.middle()) && Contains(outline, o.middle() - across));
+    });
+    return within;
   }
 
   // Where a closed leaf may stand: along both ends of a swing, or along a line.
@@ -296,6 +312,7 @@ class OpeningFinder {
   std::set<uint32_t> jambs_;  // sides at the ends of openings
   std::vector<DrawnOpening> out_;
   OpeningPlaces places_;  // of out_
+  BoxTree<2> rooms_;      // as the drawing outlines them
 };
 
 }  // namespace

@@ -120,10 +120,10 @@ class OpeningFinder {
       Keep(gap.opening);
     };
     for (Gap& gap : gaps) {
-      if (!IsKnown(gap.opening) && Judge(gap)) take(gap);
+      if (!IsKnown(gap.opening) && !IsWithinARoom(gap.opening) && Judge(gap)) take(gap);
     }
     for (Gap& gap : gaps) {
-      if (!IsKnown(gap.opening) && IsPassage(gap)) take(gap);
+      if (!IsKnown(gap.opening) && !IsWithinARoom(gap.opening) && IsPassage(gap)) take(gap);
     }
   }
 
@@ -182,7 +182,7 @@ class OpeningFinder {
     if (width > (gap.between_ends ? options_.max_bare_gap_m : options_.max_bare_end_gap_m)) return false;
     const uint32_t source = outline_.sides()[gap.side_a].source;
     if (source < drawing_.paths.size()) o.location = drawing_.paths[source].location;
-    return !IsWithinARoom(o);
+    return true;
   }
 
   // On both of its sides is one room that the drawing outlines: a gap in what stands in the room, as toilet stalls and stairs.
@@ -222,7 +222,7 @@ class OpeningFinder {
       o->use = DrawnUse::kDoor;
       o->path = p;
       o->location = path.location;
-      if (IsKnown(*o)) continue;
+      if (IsKnown(*o) || IsWithinARoom(*o)) continue;
       symbols_.Use(p);
       Keep(std::move(*o));
       return;

@@ -96,7 +96,8 @@ void AddOutlinedRooms(Drawing& drawing, const RoomOutlineOptions& options) {
   const std::vector<uint32_t> rooms = RoomOutlines(drawing, options).Run();
   if (rooms.size() < options.min_rooms) return;
   for (const uint32_t room : rooms) {
-    const DrawnPath& path = drawing.paths[room];
+    DrawnPath& path = drawing.paths[room];
+    path.outlines_room = true;
     drawing.spaces.push_back({{}, path.points, path.location});
   }
 }

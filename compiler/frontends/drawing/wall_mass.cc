@@ -18,6 +18,7 @@ constexpr uint32_t kClosing = 0xfffffffeu;  // source of a line that the drawing
 constexpr uint32_t kSingle = 0xfffffffdu;   // of the outline of a wall drawn as one line
 constexpr double kParallel = 0.97, kSquare = 0.35, kBeside = 0.05;
 constexpr double kBeside_m = 0.02;   // from a room's outline into the room
+constexpr double kAround_m = 0.1;    // ... to the walls around it
 constexpr double kSampled_m = 0.4;  // between points where a face is measured
 constexpr int kMaxSamples = 40;     // on one side of it
 constexpr double kOff_m = 1e-4;  // from a line into the face beside it
@@ -216,6 +217,8 @@ class MassFinder {
   void ClearRooms() {
     for (const DrawnSpace& space : drawing_.spaces) {
       const double area_m2 = AreaOf(space.outline);
+      const Eigen::Vector2d slack = Eigen::Vector2d::Constant(kAround_m);
+      const Eigen::AlignedBox2d box(BoxOf(space.outline).min() - slack, BoxOf(space.outline).max() + slack);
       std::set<uint32_t> faces;
       for (size_t i = 0; i < space.outline.size(); ++i) {
         const Eigen::Vector2d a = space.outline[i], d = space.outline[(i + 1) % space.outline.size()] - a;
@@ -224,8 +227,7 @@ class MassFinder {
       }
       for (const uint32_t f : faces) {
         if (f == 0 || !out_.is_wall[f] || 2 * Map().AreaOf(f) < area_m2) continue;
-        const auto p = Map().PointIn(f);
-        if (p && Contains(space.outline, *p)) out_.is_wall[f] = false;
+        if (box.contains(BoxOf(Map().RingAt(Map().LoopsOf(f)[0])))) out_.is_wall[f] = false;
       }
     }
   }

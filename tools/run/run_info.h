@@ -11,6 +11,14 @@
 
 namespace plumb::tools {
 
+// How a run at the recording's own pace (`plumb localize --rate`) kept up with it.
+struct Pace {
+  double rate = 0;                                    // times real time
+  double latency_p50_ms = 0, latency_p99_ms = 0;      // from a scan's end to its pose
+  size_t held_solves = 0, unmapped_scans = 0;         // runtime/localizer/online_localizer.h
+};
+[[nodiscard]] Pace PaceOf(std::vector<double> latencies_ms);  // the percentiles
+
 struct RunInfo {
   std::string plumb_version;
   std::string plan_path;    // absolute: the .agraph that was localized in
@@ -29,6 +37,7 @@ struct RunInfo {
   size_t deviated_walls = 0;
   double range_bias_m = 0;   // estimated common bias of the sensor's ranges
   double ms_per_scan = 0;    // mean over all stages
+  std::optional<Pace> pace;
   std::string last_reason;   // why it did not localize; empty if it did
 };
 

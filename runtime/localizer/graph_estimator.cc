@@ -6,6 +6,7 @@
 #include "runtime/coupling/coupling.h"
 #include "runtime/localizer/stopwatch.h"
 #include "runtime/mapping/mapper.h"
+#include "runtime/optimization/window_optimizer.h"
 
 namespace plumb::runtime {
 namespace {
@@ -50,7 +51,8 @@ struct GraphEstimator::Impl {
   bool ever_fixed = false;
   int odometry_map = 0;
   size_t num_scans = 0, num_untimed = 0;  // with points
-  size_t num_keyframes = 0;               // made of the present map so far
+  size_t num_keyframes = 0;               // made of the present map so far, ...
+  size_t solved_all_at = 0;               // ... and when everything was last solved
   bool solve_due = false, rescore_due = false;
   std::vector<WallDeviation> known;       // per plan wall, as estimated so far
   std::vector<Eigen::Isometry3d> rivals;  // of the fix, T_plan_map each
@@ -89,17 +91,22 @@ struct GraphEstimator::Impl {
     Optimize(false);
   }
 
+  [[nodiscard]] JointOptions SolverOptions() const {
+    JointOptions out = options.joint;
+    if (num_untimed > kUntimedShare * static_cast<double>(num_scans)) {
+      out.observation_floor_m = std::max(out.observation_floor_m, kUntimedFloor_m);
+      out.observation_floor_rad = std::max(out.observation_floor_rad, kUntimedFloor_rad);
+    }
+    return out;
+  }
+
   // Couples map and plan at the current estimate and solves everything jointly. Covariances cost half of the time and steer nothing:
   // they are left out until somebody asks.
   void Optimize(bool covariances) {
     const std::vector<Match> matches = MatchSurfaces(mapper.graph(), plan, T_plan_map, known, options.coupling);
     if (matches.empty()) return;
-    JointOptions joint_options = options.joint;
+    JointOptions joint_options = SolverOptions();
     joint_options.covariances = covariances;
-    if (num_untimed > kUntimedShare * static_cast<double>(num_scans)) {
-      joint_options.observation_floor_m = std::max(joint_options.observation_floor_m, kUntimedFloor_m);
-      joint_options.observation_floor_rad = std::max(joint_options.observation_floor_rad, kUntimedFloor_rad);
-    }
     JointResult result = OptimizeJointly(mapper.graph(), plan, matches, T_plan_map, joint_options);
     if (result.T_map_kf.empty()) return;  // unusable; a solution short of its last digit is not
     joint = std::move(result);
@@ -107,6 +114,19 @@ struct GraphEstimator::Impl {
     for (const WallEstimate& wall : joint.walls) known[wall.wall.index()] = wall.deviation;
     std::vector<Keyframe>& keyframes = mapper.mutable_graph().keyframes;
     for (size_t i = 0; i < keyframes.size() && i < joint.T_map_kf.size(); ++i) keyframes[i].T_map_kf = joint.T_map_kf[i];
+    mapper.OnPosesChanged();
+    solved_all_at = num_keyframes;
+  }
+
+  // Between two solves over everything, which cost more the larger the map is, only the newest keyframes are laid on it.
+  void Solve() {
+    size_t kept = 0;
+    for (const Keyframe& keyframe : mapper.graph().keyframes) kept += !keyframe.merged;
+    if (static_cast<double>(num_keyframes - solved_all_at) >= options.solve_all_growth * static_cast<double>(kept)) return Optimize(false);
+    const std::vector<Eigen::Isometry3d> poses = OptimizeWindow(mapper.graph(), static_cast<size_t>(options.window_keyframes), SolverOptions());
+    if (poses.empty()) return Optimize(false);
+    std::vector<Keyframe>& keyframes = mapper.mutable_graph().keyframes;
+    for (size_t i = 0; i < poses.size(); ++i) keyframes[keyframes.size() - poses.size() + i].T_map_kf = poses[i];
     mapper.OnPosesChanged();
   }
 
@@ -139,7 +159,7 @@ struct GraphEstimator::Impl {
       timing.push_back({"matching", watch.Lap()});
       return false;
     }
-    if (std::exchange(solve_due, false)) Optimize(false);
+    if (std::exchange(solve_due, false)) Solve();
     timing.push_back({"optimization", watch.Lap()});
     if (std::exchange(rescore_due, false)) {
       Rescore();
@@ -162,7 +182,7 @@ struct GraphEstimator::Impl {
     HoldPose();
     mapper = Mapper(options.mapper);
     places.clear();
-    num_keyframes = 0;
+    num_keyframes = solved_all_at = 0;
     match = {};
     verdict = ever_fixed ? Verdict::kLost : Verdict::kSearching;
     ForgetFix();

@@ -14,6 +14,10 @@ constexpr int kMaxFailedScans = 3;  // in a row: from then on nobody knows where
 
 std::string LocalizerOptions::Check() const {
   if (optimize_every < 1) return "LocalizerOptions.optimize_every = " + std::to_string(optimize_every) + "; must be >= 1";
+  if (!(solve_all_growth >= 0)) return "LocalizerOptions.solve_all_growth = " + std::to_string(solve_all_growth) + "; must be >= 0";
+  if (window_keyframes < 1 || window_keyframes > mapper.recent_keyframes) {
+    return "LocalizerOptions.window_keyframes = " + std::to_string(window_keyframes) + "; must be in [1, mapper.recent_keyframes]";
+  }
   if (rescore_every < 1) return "LocalizerOptions.rescore_every = " + std::to_string(rescore_every) + "; must be >= 1";
   if (lost_after < 1) return "LocalizerOptions.lost_after = " + std::to_string(lost_after) + "; must be >= 1";
   if (!(rival_margin_nats >= 0)) return "LocalizerOptions.rival_margin_nats = " + std::to_string(rival_margin_nats) + "; must be >= 0";

@@ -13,7 +13,9 @@
 namespace plumb::runtime {
 
 struct LocalizerOptions {
-  int optimize_every = 1;          // keyframes between two joint solves once localized
+  int optimize_every = 1;          // keyframes between two solves once localized: ...
+  double solve_all_growth = 0.05;  // ... of everything when the map has grown by this share since the last of them, ...
+  int window_keyframes = 20;       // ... else of the poses of so many newest keyframes; at most mapper.recent_keyframes
   int rescore_every = 10;          // keyframes between two re-scorings of the fix against its rivals and against "outside the plan"
   int lost_after = 2;              // as many re-scorings in a row that speak against the fix end it
   double rival_margin_nats = 5.0;  // a rival must be better by this much to count against the fix

@@ -191,7 +191,8 @@ RunInfo Describe(const LocalizeFlags& flags, const CLI::App& sub, const AGraph& 
     ++info.localized_scans;
   }
   if (!results.verdicts.empty()) info.duration_s = results.verdicts.back().stamp_s - results.verdicts.front().stamp_s;
-  info.keyframes = localizer.map().keyframes.size();
+  info.keyframes = static_cast<size_t>(std::count_if(localizer.map().keyframes.begin(), localizer.map().keyframes.end(),
+                                                     [](const runtime::Keyframe& keyframe) { return !keyframe.merged; }));
   info.deviated_walls = CountDeviatedWalls(plan, report);
   info.range_bias_m = localizer.estimate().range_bias_m;
   info.pace = results.pace;

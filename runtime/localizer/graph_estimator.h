@@ -26,6 +26,7 @@ struct StageTime {
 // A scan as odometry hands it on.
 struct RegisteredScan {
   double stamp_s = 0;
+  bool in_order = true;     // else its stamp is not later than an earlier scan's, and nothing was done with it
   bool has_points = false;  // as it was read
   int odometry_map = 0;     // how many maps odometry had given up by then (OdometryResult::restarted)
   OdometryResult odometry;

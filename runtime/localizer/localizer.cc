@@ -1,6 +1,8 @@
 #include "runtime/localizer/localizer.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <utility>
 
 #include "runtime/localizer/stopwatch.h"
@@ -46,12 +48,18 @@ ScanVerdict Localizer::AddScan(const Scan& scan, const std::optional<Odometry::G
 RegisteredScan Localizer::Register(const Scan& scan, const std::optional<Odometry::GivenMotion>& given) {
   RegisteredScan out;
   out.stamp_s = scan.stamp_s;
+  out.odometry_map = odometry_map_;
+  out.odometry.T_odom_lidar = T_odom_last_;
+  out.in_order = std::isfinite(scan.stamp_s) && scan.stamp_s > last_stamp_s_.value_or(-std::numeric_limits<double>::infinity());
+  if (!out.in_order) return out;
+  last_stamp_s_ = scan.stamp_s;
   out.has_points = !scan.points.empty();
   Stopwatch watch;
   out.odometry = odometry_.Register(scan, given);
   out.odometry_ms = watch.Lap();
   odometry_map_ += out.odometry.restarted;
   out.odometry_map = odometry_map_;
+  T_odom_last_ = out.odometry.T_odom_lidar;
   return out;
 }
 
@@ -61,6 +69,7 @@ ScanVerdict Localizer::Track(const RegisteredScan& scan, const GraphState& graph
   failed_scans_ = scan.odometry.ok || scan.odometry.restarted ? 0 : failed_scans_ + 1;
   ScanVerdict out;
   out.stamp_s = scan.stamp_s;
+  out.in_order = scan.in_order;
   out.timed = scan.odometry.timed;
   out.verdict = graph.verdict;
   if (graph.odometry_map != scan.odometry_map) out.verdict = graph.T_plan_odom ? Verdict::kLost : Verdict::kSearching;

@@ -13,6 +13,7 @@ struct ScanVerdict {
   double stamp_s = 0;
   Verdict verdict = Verdict::kSearching;
   int hypotheses = 0;
+  bool in_order = true;  // else the stamp is not later than an earlier scan's: the scan is left out, and this is about the one before
   bool timed = false;  // per-point times were usable; else "deskew off"
   std::optional<Eigen::Isometry3d> T_plan_lidar;  // at the stamp, from the first fix on; when lost, dead reckoning from the last one
   std::vector<StageTime> timing;
@@ -28,7 +29,7 @@ class Localizer {
   // `plan` must outlive it; `options` must pass Check().
   Localizer(const AGraph& plan, const LocalizerOptions& options = {});
 
-  // The next scan in time order. `given`: see Odometry::Register.
+  // The next scan. One whose stamp is not later than all before it is left out. `given`: see Odometry::Register.
   [[nodiscard]] ScanVerdict AddScan(const Scan& scan, const std::optional<Odometry::GivenMotion>& given);
 
   // Its steps. Odometry: some milliseconds.
@@ -58,6 +59,8 @@ class Localizer {
   // One step's state each.
   Odometry odometry_;
   int odometry_map_ = 0;
+  std::optional<double> last_stamp_s_;
+  Eigen::Isometry3d T_odom_last_ = Eigen::Isometry3d::Identity();
   GraphEstimator graph_;
   int failed_scans_ = 0;  // in a row
 };

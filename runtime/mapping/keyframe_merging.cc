@@ -48,7 +48,8 @@ std::optional<uint32_t> RedundantTo(const SGraph& graph, uint32_t keyframe, cons
 void MergeKeyframe(uint32_t keyframe, uint32_t into, SGraph* graph) {
   Keyframe& merged = graph->keyframes[keyframe];
   merged.merged = Keyframe::Merged{into, graph->keyframes[into].T_map_kf.inverse() * merged.T_map_kf};
-  merged.points = {};
+  merged.points.clear();
+  merged.points.shrink_to_fit();
   for (MapSurface& surface : graph->surfaces) {
     std::vector<Observation>& observations = surface.observations;
     const auto seen = Find(observations, keyframe);

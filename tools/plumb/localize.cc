@@ -38,7 +38,7 @@ struct Results {
   runtime::Trajectory online;
   std::vector<VerdictRow> verdicts;
   std::vector<TimingRow> timing;
-  size_t unreadable_scans = 0, untimed_scans = 0;
+  size_t unreadable_scans = 0, untimed_scans = 0, unordered_scans = 0;
   bool interrupted = false;
   std::optional<Pace> pace;  // with --rate
 };
@@ -61,6 +61,12 @@ class Collector {
       return true;
     }
     const runtime::ScanVerdict& verdict = scan.verdict;
+    if (!verdict.in_order) {
+      if (results_.unordered_scans++ == 0) {
+        console_.Info(fmt::format("the scan at {:.9f} s does not come after the one before it: left out, as all others of that kind", verdict.stamp_s));
+      }
+      return true;
+    }
     if (!verdict.timed && scan.has_points && results_.untimed_scans++ == 0) {
       console_.Info(fmt::format("scans without {}per-point time: deskew off", scan.has_times ? "usable " : ""));
     }
@@ -184,6 +190,7 @@ RunInfo Describe(const LocalizeFlags& flags, const CLI::App& sub, const AGraph& 
   info.scans = results.verdicts.size();
   info.unreadable_scans = results.unreadable_scans;
   info.untimed_scans = results.untimed_scans;
+  info.unordered_scans = results.unordered_scans;
   info.interrupted = results.interrupted;
   for (const VerdictRow& v : results.verdicts) {
     if (v.verdict != "localized") continue;

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "runtime/optimization/level_votes.h"
+#include "runtime/optimization/odometry_step.h"
 #include "runtime/optimization/wall_measurement.h"
 
 namespace plumb::runtime {
@@ -43,19 +44,16 @@ struct JointProblem::Impl {
         problem(SharedLossesAndManifolds()) {}
 
   void AddKeyframes() {
-    for (auto& pose : state.poses) problem.AddParameterBlock(pose.data(), kPoseSize, &pose_manifold);
+    for (size_t i = 0; i < map.keyframes.size(); ++i) {
+      if (!map.keyframes[i].merged) problem.AddParameterBlock(state.poses[i].data(), kPoseSize, &pose_manifold);
+    }
     problem.AddResidualBlock(Cost<AnchorResidual, 6, kPoseSize>({Anchor(), kAnchorSigma_m, kAnchorSigma_rad, options.gravity_sigma_rad}), nullptr,
                              state.poses[0].data());
-    for (size_t i = 1; i < map.keyframes.size(); ++i) {
-      const Keyframe &a = map.keyframes[i - 1], &b = map.keyframes[i];
-      const Eigen::Isometry3d step = a.T_odom_kf.inverse() * b.T_odom_kf;
-      const double length = step.translation().norm(), turn = Eigen::AngleAxisd(step.linear()).angle();
-      const double sigma_m = options.odometry_sigma_m + options.odometry_sigma_m_per_m * length +
-                             options.odometry_sigma_m_per_s * std::abs(b.stamp_s - a.stamp_s);
-      const double sigma_rad =
-          options.odometry_sigma_rad + options.odometry_sigma_rad_per_m * length + options.odometry_sigma_rad_per_rad * std::abs(turn);
-      problem.AddResidualBlock(Cost<OdometryResidual, 6, kPoseSize, kPoseSize>({step, sigma_m, sigma_rad}), &odometry_loss,
-                               state.poses[i - 1].data(), state.poses[i].data());
+    for (size_t i = 1, last = 0; i < map.keyframes.size(); ++i) {
+      if (map.keyframes[i].merged) continue;
+      problem.AddResidualBlock(Cost<OdometryResidual, 6, kPoseSize, kPoseSize>(OdometryStep(map.keyframes[last], map.keyframes[i], options)), &odometry_loss,
+                               state.poses[last].data(), state.poses[i].data());
+      last = i;
     }
   }
 

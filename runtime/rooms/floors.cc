@@ -108,6 +108,7 @@ std::vector<MapFloor> FindFloors(const SGraph& graph, const RoomOptions& options
   }
   std::sort(floors.begin(), floors.end(), [](const MapFloor& a, const MapFloor& b) { return a.sensor_z_m < b.sensor_z_m; });
   for (const Keyframe& keyframe : graph.keyframes) {
+    if (keyframe.merged) continue;
     const double z_m = keyframe.T_map_kf.translation().z();
     const auto nearest = std::min_element(floors.begin(), floors.end(), [&](const MapFloor& a, const MapFloor& b) {
       return std::abs(a.sensor_z_m - z_m) < std::abs(b.sensor_z_m - z_m);

@@ -8,10 +8,10 @@ namespace plumb::runtime {
 namespace {
 
 void AddKeyframe(SGraph& graph, double x, double z_m) {
-  Keyframe keyframe;
-  keyframe.id = static_cast<uint32_t>(graph.keyframes.size());
+  const auto id = static_cast<uint32_t>(graph.keyframes.size());
+  Keyframe& keyframe = graph.keyframes.emplace_back();
+  keyframe.id = id;
   keyframe.T_map_kf.translation() = Eigen::Vector3d(x, 0, z_m);
-  graph.keyframes.push_back(keyframe);
 }
 
 // Level, seen from keyframes first to last.

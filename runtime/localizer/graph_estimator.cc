@@ -6,6 +6,7 @@
 #include "runtime/coupling/coupling.h"
 #include "runtime/localizer/stopwatch.h"
 #include "runtime/mapping/mapper.h"
+#include "runtime/optimization/map_polish.h"
 #include "runtime/optimization/window_optimizer.h"
 
 namespace plumb::runtime {
@@ -116,6 +117,15 @@ struct GraphEstimator::Impl {
     for (size_t i = 0; i < keyframes.size() && i < joint.T_map_kf.size(); ++i) keyframes[i].T_map_kf = joint.T_map_kf[i];
     mapper.OnPosesChanged();
     solved_all_at = num_keyframes;
+  }
+
+  // Without a plan the map can at least be made consistent by itself.
+  void Polish() {
+    const PolishResult polished = PolishMap(mapper.graph());
+    if (!polished.converged) return;
+    std::vector<Keyframe>& keyframes = mapper.mutable_graph().keyframes;
+    for (size_t i = 0; i < keyframes.size(); ++i) keyframes[i].T_map_kf = polished.T_map_kf[i];
+    mapper.OnPosesChanged();
   }
 
   // Between two solves over everything, which cost more the larger the map is, only the newest keyframes are laid on it.
@@ -251,7 +261,11 @@ GraphState GraphEstimator::Add(const RegisteredScan& scan, bool hold) {
 
 void GraphEstimator::Finish() {
   impl_->mapper.Flush();
-  if (impl_->placed()) impl_->Optimize(true);
+  if (impl_->placed()) {
+    impl_->Optimize(true);
+  } else {
+    impl_->Polish();
+  }
 }
 
 bool GraphEstimator::placed() const { return impl_->placed(); }

@@ -150,14 +150,13 @@ struct VoxelHash {
   }
 };
 
-// The keyframes' points in the plan frame, the first of each voxel. Nothing before the first fix: the map then lies nowhere in the plan.
+// The keyframes' points, the first of each voxel: in the plan frame, or the map's own where nobody knows where in the plan it lies.
 std::vector<Eigen::Vector3d> AsBuiltCloud(const runtime::Localizer& localizer, double voxel_m) {
   std::vector<Eigen::Vector3d> cloud;
-  const std::optional<Eigen::Isometry3d> T_plan_map = localizer.T_plan_map();
-  if (!T_plan_map) return cloud;
+  const Eigen::Isometry3d T_plan_map = localizer.T_plan_map().value_or(Eigen::Isometry3d::Identity());
   std::unordered_set<Voxel, VoxelHash> taken;
   for (const runtime::Keyframe& keyframe : localizer.map().keyframes) {
-    const Eigen::Isometry3d T_plan_kf = *T_plan_map * keyframe.T_map_kf;
+    const Eigen::Isometry3d T_plan_kf = T_plan_map * keyframe.T_map_kf;
     for (const Eigen::Vector3f& point : keyframe.points) {
       const Eigen::Vector3d p = T_plan_kf * point.cast<double>();
       const Eigen::Vector3d cell = (p / voxel_m).array().floor();
@@ -220,7 +219,7 @@ Expected<void> WriteRun(const LocalizeFlags& flags, const AGraph& plan, const Re
       {"trajectory_smoothed.tum", runtime::WriteTum(localizer.SmoothedTrajectory())},
       {"verdicts.csv", VerdictsToCsv(results.verdicts)},
       {"timing.csv", TimingToCsv(results.timing)},
-      {"map.ply", PointsToPly(AsBuiltCloud(localizer, flags.map_voxel_m), "as built, plan frame, metres")},
+      {"map.ply", PointsToPly(AsBuiltCloud(localizer, flags.map_voxel_m), fmt::format("as built, {} frame, metres", localizer.T_plan_map() ? "plan" : "map"))},
       {"sgraph.json", runtime::SGraphToJson(localizer.map(), layers, localizer.T_plan_map())},
       {"deviations.json", runtime::DeviationsToJson(plan, report)},
       {"run.json", RunInfoToJson(info)},

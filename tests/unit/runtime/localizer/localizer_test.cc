@@ -162,6 +162,22 @@ TEST(Localizer, KeepsSearchingInAPlanOfAnotherBuilding) {
   EXPECT_FALSE(run.localizer.last_match().reason.empty());
 }
 
+TEST(Localizer, PolishesAMapThatLiesInNoPlan) {
+  const AGraph house = test::MakeHouse(), no_plan;
+  Session run(no_plan, house);
+  EXPECT_EQ(run.Until(Verdict::kLocalized, 6), 0);
+  run.localizer.Finish();
+  EXPECT_FALSE(run.localizer.T_plan_map());
+  const std::vector<Keyframe>& keyframes = run.localizer.map().keyframes;
+  ASSERT_GT(keyframes.size(), 3u);
+  const Eigen::Isometry3d T_plan_map = run.TruthAt(keyframes[0].stamp_s) * keyframes[0].T_map_kf.inverse();
+  for (const Keyframe& k : keyframes) {
+    EXPECT_LT((k.T_odom_kf.inverse() * k.T_map_kf).translation().norm(), 0.05);
+    EXPECT_LT(ErrorOf(T_plan_map * k.T_map_kf, run.TruthAt(k.stamp_s)).position_m, 0.03);
+  }
+  EXPECT_TRUE(std::any_of(keyframes.begin() + 1, keyframes.end(), [](const Keyframe& k) { return !k.T_map_kf.isApprox(k.T_odom_kf, 1e-9); }));
+}
+
 TEST(Localizer, GivesTheSamePosesForTheSameScans) {
   const AGraph house = test::MakeHouse();
   Session a(house, house), b(house, house);

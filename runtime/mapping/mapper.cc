@@ -82,6 +82,7 @@ bool Mapper::CloseWindow() {
   keyframe.points = window.ThinnedPoints();
   if (keyframe.points.empty()) return false;
   graph_.keyframes.push_back(std::move(keyframe));
+  graph_.planar = window.planar();
   const std::vector<Segment> segments = window.planar() ? ExtractLineSegments(window, options_) : ExtractSegments(window, options_);
   for (const Segment& segment : segments) AddSegment(segment, graph_.keyframes.back());
   MergeDuplicates();

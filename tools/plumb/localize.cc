@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 struct LocalizeFlags {
   std::string plan, recording, output;
   bool no_odometry = false;
-  double max_duration_s = 0;
+  double start_s = 0, max_duration_s = 0;
   double tolerance_deg = 0.5;
   double map_voxel_m = 0.02;
   runtime::LocalizerOptions options;
@@ -43,10 +43,12 @@ struct Results {
 
 Expected<Results> AddScans(const runtime::Recording& recording, const LocalizeFlags& flags, runtime::Localizer& localizer, Console& console) {
   Results results;
-  Error last_error{ErrorCode::kBadScan, "no scan"};
+  Error last_error{ErrorCode::kBadScan, fmt::format("`{}` has no scan after {} s", flags.recording, flags.start_s)};
   const InterruptGuard interrupt;
   for (size_t i = 0; i < recording.size(); ++i) {
-    if (flags.max_duration_s > 0 && recording.stamp_s(i) - recording.stamp_s(0) > flags.max_duration_s) break;
+    const double time_s = recording.stamp_s(i) - recording.stamp_s(0);
+    if (time_s < flags.start_s) continue;
+    if (flags.max_duration_s > 0 && time_s - flags.start_s > flags.max_duration_s) break;
     if (interrupt.requested()) {
       results.interrupted = true;
       break;
@@ -130,6 +132,7 @@ RunInfo Describe(const LocalizeFlags& flags, const CLI::App& sub, const AGraph& 
     ++info.localized_scans;
   }
   if (!results.verdicts.empty()) info.duration_s = results.verdicts.back().stamp_s - results.verdicts.front().stamp_s;
+  info.planar = localizer.map().planar;
   info.keyframes = localizer.map().keyframes.size();
   info.deviated_walls = CountDeviatedWalls(plan, report);
   info.range_bias_m = localizer.estimate().range_bias_m;
@@ -215,7 +218,8 @@ void AddLocalize(CLI::App& app, Session& session) {
   sub->add_option("REC", flags->recording, "recording folder: scans/*.pcd and, where there is one, odometry.tum")->required();
   sub->add_option("-o,--output", flags->output, "the run folder to write")->required()->type_name("RUN");
   sub->add_flag("--no-odometry", flags->no_odometry, "do without the recording's odometry.tum");
-  sub->add_option("--max-duration", flags->max_duration_s, "stop after this much of the recording; 0: all of it, s");
+  sub->add_option("--start", flags->start_s, "leave out this much of the recording at its beginning, s");
+  sub->add_option("--max-duration", flags->max_duration_s, "stop after this much of the rest; 0: all of it, s");
   sub->add_option("--tolerance", o.deviations.min_offset_m, "walls displaced by less are as planned, m");
   sub->add_option("--tolerance-angle", flags->tolerance_deg, "walls turned by less are as planned, deg");
   sub->add_option("--false-discovery-rate", o.deviations.false_discovery_rate, "share of wrong ones among the walls reported");

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "runtime/coupling/level_matching.h"
@@ -29,6 +30,7 @@ constexpr size_t kMinPassed = 5;
 constexpr double kInOpeningRatio = 0.6;    // of an observation's extent either way: it is of what fills the opening
 constexpr double kHalfExtentSigmas = 1.7;  // half the extent of evenly spread points
 constexpr double kMinSingleArea_m2 = 0.6;  // a smaller patch seen from one keyframe only is too rough to tell
+constexpr double kMaxThicker_m = 0.10;     // no wall is built thicker than planned by more: one of its faces is the front of furniture
 constexpr double kStepPerMetre = 0.01;     // lines are compared at a distance: allow for their direction errors
 
 // A wall patch of the map, in plan coordinates.
@@ -263,6 +265,27 @@ class Assignment {
   const CouplingOptions& options_;
 };
 
+// Drops what stands before a wall whose other face was seen as well, where the two together would make the wall far too thick. A planar laser
+// sees of a cupboard no more and no less than of a wall; a lidar with many rings sees over it, and lines decide.
+void DropFurnitureFronts(const std::vector<Patch>& patches, std::vector<std::vector<Candidate>>& assigned) {
+  std::map<int, std::pair<double, double>> sides;  // sum of offset * area, area
+  for (size_t i = 0; i < patches.size(); ++i) {
+    if (assigned[i].empty()) continue;
+    auto& [moment, area] = sides[assigned[i].front().side];
+    moment += assigned[i].front().offset_m * patches[i].area;
+    area += patches[i].area;
+  }
+  const auto in_front_m = [&](int side) {
+    const auto at = sides.find(side);
+    return at == sides.end() || at->second.second <= 0 ? 0.0 : at->second.first / at->second.second;
+  };
+  for (auto& list : assigned) {
+    if (list.empty() || !sides.contains(list.front().side ^ 1)) continue;
+    const int side = list.front().side;
+    if (in_front_m(side) + in_front_m(side ^ 1) > kMaxThicker_m && in_front_m(side) > 0.5 * kMaxThicker_m) list.clear();
+  }
+}
+
 }  // namespace
 
 std::string CouplingOptions::Check() const {
@@ -298,7 +321,8 @@ std::vector<Match> MatchSurfaces(const SGraph& map, const AGraph& plan, const Ei
       if (auto c = Compare(patches[i], SurfaceId(j), surface, frames[wall], deviation, openings[wall], sight, options)) candidates[i].push_back(*c);
     }
   }
-  const std::vector<std::vector<Candidate>> assigned = Assignment(patches, std::move(candidates), options).Solve();
+  std::vector<std::vector<Candidate>> assigned = Assignment(patches, std::move(candidates), options).Solve();
+  if (map.planar) DropFurnitureFronts(patches, assigned);
 
   std::vector<Match> matches = MatchLevels(map, plan, T_plan_map, options);
   for (size_t i = 0; i < patches.size(); ++i) {

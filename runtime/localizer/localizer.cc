@@ -12,6 +12,8 @@ constexpr int kMaxFailedScans = 3;  // in a row: from then on nobody knows where
 // Walls seen while the robot turned are bent by motion that could not be taken out: by some centimetres and degrees.
 constexpr double kUntimedShare = 0.1, kUntimedFloor_m = 0.05, kUntimedFloor_rad = 0.05;
 
+constexpr double kPlanarPlaceSigma_m = 0.05;  // of a planar map's place by its rays
+
 // Milliseconds since construction or the last call of Lap.
 class Stopwatch {
  public:
@@ -81,6 +83,7 @@ struct Localizer::Impl {
   MatchResult match;
   JointResult joint;
   Eigen::Isometry3d T_plan_map = Eigen::Isometry3d::Identity();  // of the last fix
+  Eigen::Isometry3d T_by_rays = Eigen::Isometry3d::Identity();  // as the matcher found it
   bool ever_fixed = false;
   bool is_placed = false;  // T_plan_map is where the present map lies, even while nobody knows where in it the robot is
   int failed_scans = 0;  // in a row
@@ -112,7 +115,7 @@ struct Localizer::Impl {
       case MatchResult::Verdict::kUnique: break;
     }
     ForgetFix();
-    T_plan_map = match.hypotheses.front().T_plan_map;
+    T_plan_map = T_by_rays = match.hypotheses.front().T_plan_map;
     for (size_t i = 1; i < match.hypotheses.size(); ++i) rivals.push_back(match.hypotheses[i].T_plan_map);
     verdict = Verdict::kLocalized;
     ever_fixed = is_placed = true;
@@ -126,6 +129,11 @@ struct Localizer::Impl {
     if (matches.empty()) return;
     JointOptions joint_options = options.joint;
     joint_options.covariances = covariances;
+    // Half of the walls that a planar laser sees are furniture, which may agree with each other better than with the walls. The rays know.
+    if (mapper.graph().planar) {
+      joint_options.place = T_by_rays;
+      joint_options.place_sigma_m = kPlanarPlaceSigma_m;
+    }
     if (num_untimed > kUntimedShare * static_cast<double>(num_scans)) {
       joint_options.observation_floor_m = std::max(joint_options.observation_floor_m, kUntimedFloor_m);
       joint_options.observation_floor_rad = std::max(joint_options.observation_floor_rad, kUntimedFloor_rad);
@@ -251,6 +259,7 @@ ScanVerdict Localizer::AddScan(const Scan& scan, const std::optional<Odometry::G
   }
   if (registered.restarted) impl_->StartOver();
   impl_->CountFailures(registered.ok || registered.restarted);
+  impl_->mapper.HoldPoses(impl_->verdict == Verdict::kLocalized);
   const bool grew = (registered.ok || registered.restarted) &&
                     impl_->mapper.AddScan(registered.deskewed, registered.T_odom_lidar,
                                           registered.planar ? std::optional(registered.step_covariance) : std::nullopt);

@@ -117,7 +117,7 @@ double OverlapRatio(double a0, double a1, double b0, double b1) {
 }
 
 std::optional<Candidate> Compare(const Patch& patch, SurfaceId id, const Surface& surface, const WallFrame& frame, const WallDeviation& known,
-                                 const std::vector<WallOpening>& openings, const SightLines& sight, const CouplingOptions& options) {
+                                 const std::vector<WallOpening>& openings, const SightLines& sight, double max_offset_m, const CouplingOptions& options) {
   const Eigen::Vector3d& n = surface.normal;
   const double yaw = std::atan2(n.x() * patch.normal.y() - n.y() * patch.normal.x(), n.head<2>().dot(patch.normal.head<2>()));
   if (std::abs(yaw - known.yaw_rad) > options.max_yaw_rad) return std::nullopt;
@@ -141,7 +141,7 @@ std::optional<Candidate> Compare(const Patch& patch, SurfaceId id, const Surface
   const Eigen::Vector2d arm = on_plan - frame.pivot.head<2>();
   const double expected = known.offset_m * frame.normal.dot(n) + known.yaw_rad * n.head<2>().dot(Eigen::Vector2d(-arm.y(), arm.x()));
   const Eigen::Vector2d residual(c.offset_m - expected, yaw - known.yaw_rad);
-  if (std::abs(residual.x()) > options.max_offset_m) return std::nullopt;
+  if (std::abs(residual.x()) > max_offset_m) return std::nullopt;
   if (OpenRatio(patch, openings, along, std::min(c.offset_m, residual.x()) < -kRecess_m) > kMaxOpenRatio) return std::nullopt;
   if (std::abs(c.offset_m) > kOffPlan_m && IsSeenThrough(patch, surface, openings, sight)) return std::nullopt;
   const double yaw_sigma = kMapSigma_m / std::max(patch.length(), 0.3);
@@ -289,7 +289,7 @@ void DropFurnitureFronts(const std::vector<Patch>& patches, std::vector<std::vec
 }  // namespace
 
 std::string CouplingOptions::Check() const {
-  const std::pair<const char*, double> positive[] = {{"max_offset_m", max_offset_m}, {"max_yaw_rad", max_yaw_rad},
+  const std::pair<const char*, double> positive[] = {{"max_offset_m", max_offset_m}, {"planar_max_offset_m", planar_max_offset_m}, {"max_yaw_rad", max_yaw_rad},
       {"max_level_offset_m", max_level_offset_m}, {"max_step_m", max_step_m}, {"offset_tau0_m", offset_tau0_m},
       {"offset_tau1_m", offset_tau1_m}, {"yaw_tau0_rad", yaw_tau0_rad}, {"yaw_tau1_rad", yaw_tau1_rad}};
   for (const auto& [name, value] : positive) {
@@ -311,6 +311,7 @@ std::vector<Match> MatchSurfaces(const SGraph& map, const AGraph& plan, const Ei
   const std::vector<Patch> patches = WallPatches(map, T_plan_map);
   const std::vector<std::vector<WallOpening>> openings = OpeningsOfWalls(plan);
   const SightLines sight(map, T_plan_map);
+  const double max_offset_m = map.planar ? options.planar_max_offset_m : options.max_offset_m;
   std::vector<std::vector<Candidate>> candidates(patches.size());
   for (size_t i = 0; i < patches.size(); ++i) {
     for (size_t j = 0; j < plan.surfaces.size(); ++j) {
@@ -318,7 +319,7 @@ std::vector<Match> MatchSurfaces(const SGraph& map, const AGraph& plan, const Ei
       if (!surface.wall.valid() || !IsFace(frames[surface.wall.index()], surface)) continue;
       const WallDeviation deviation = surface.wall.index() < known.size() ? known[surface.wall.index()] : WallDeviation{};
       const size_t wall = surface.wall.index();
-      if (auto c = Compare(patches[i], SurfaceId(j), surface, frames[wall], deviation, openings[wall], sight, options)) candidates[i].push_back(*c);
+      if (auto c = Compare(patches[i], SurfaceId(j), surface, frames[wall], deviation, openings[wall], sight, max_offset_m, options)) candidates[i].push_back(*c);
     }
   }
   std::vector<std::vector<Candidate>> assigned = Assignment(patches, std::move(candidates), options).Solve();

@@ -101,7 +101,9 @@ void Mapper::CloseLoops(const KeyframeWindow& window) {
     poses.push_back(Leveled(keyframe.T_map_kf));
     planar.push_back(poses.back().pose);
   }
-  if (!loops_.Add(MakePlanarScan(prepared, poses.back().leveling, {}, kPointShare * options_.plane_sigma_m), planar) || poses_held_) return;
+  const bool closed = loops_.Add(MakePlanarScan(prepared, poses.back().leveling, {}, kPointShare * options_.plane_sigma_m), planar);
+  graph_.edges = loops_.edges();
+  if (!closed || poses_held_) return;
   const std::vector<Pose2> solved = SolvePoseGraph(planar, loops_.edges());
   bool settled = true;
   for (size_t i = 0; i < solved.size(); ++i) {

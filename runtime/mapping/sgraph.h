@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "runtime/odometry/planar/pose2.h"
+
 namespace plumb::runtime {
 
 // Sum of homogeneous outer products of points, sum [p;1][p;1]^T: all that point-to-plane residuals need (runtime/METHOD.md, pi-factor).
@@ -81,11 +83,20 @@ struct Keyframe {
   std::vector<Eigen::Vector3f> points;                          // deskewed, down-sampled, keyframe frame
 };
 
+// Pose of `to` in `from` as measured; covariance of (x, y, yaw) in the axes of `from`.
+struct PoseEdge {
+  uint32_t from = 0, to = 0;
+  Pose2 T_from_to;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
+  bool loop = false;  // may be wrong: a robust loss lets it go
+};
+
 struct SGraph {
   // Made by a planar laser: walls are seen on one line, in the plane of the keyframes, whose height above the floor is not known; there are no
   // floors and ceilings, and height, roll and pitch of keyframes are conventions.
   bool planar = false;
   std::vector<Keyframe> keyframes;
+  std::vector<PoseEdge> edges;  // between keyframes, of their levelled frames; by a planar laser: odometry's steps and the loops
   std::vector<MapSurface> surfaces;  // ids are stable; merged ones keep their slot with no observations
 };
 

@@ -2,11 +2,15 @@
 
 #include <ceres/ceres.h>
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <utility>
 
+#include "runtime/odometry/planar/planar_scan.h"
 #include "runtime/optimization/level_votes.h"
 #include "runtime/optimization/wall_measurement.h"
 
@@ -59,7 +63,7 @@ constexpr double kAnchorSigma_m = 1e-4, kAnchorSigma_rad = 1e-4;
 constexpr std::array<double, kPlaceSize> kPlaceWeight{0.1, 0.1, 0.1, 1.0};
 constexpr double kHeldHeight_m = 0.005;  // without floor or ceiling, walls a thousandth off plumb would drag the height along by metres
 constexpr std::array<double, kPlaneSize> kPlaneWeight{1.0, 1.0, 1.0, 0.1};
-constexpr double kOdometryLoss = 3.0;  // in sigmas
+constexpr double kOdometryLoss = 3.0, kLoopLoss = 2.0;  // in sigmas
 
 template <class Functor, int kResiduals, int... kBlocks>
 auto* Cost(const Functor& functor) {
@@ -78,7 +82,7 @@ ceres::Problem::Options SharedLossesAndManifolds() {
 struct JointProblem::Impl {
   Impl(const SGraph& map_in, const AGraph& plan_in, const std::vector<WallFrame>& frames_in, const JointOptions& options_in, JointState& state_in)
       : map(map_in), plan(plan_in), frames(frames_in), options(options_in), state(state_in), observation_loss(options.observation_loss),
-        odometry_loss(kOdometryLoss), floor_loss(kFloorLoss), ceiling_loss(kCeilingLoss), level_weight{1 / options.level_sigma_m}, bias_weight{1 / options.bias_sigma_m},
+        odometry_loss(kOdometryLoss), loop_loss(kLoopLoss), floor_loss(kFloorLoss), ceiling_loss(kCeilingLoss), level_weight{1 / options.level_sigma_m}, bias_weight{1 / options.bias_sigma_m},
         problem(SharedLossesAndManifolds()) {}
 
   void AddKeyframes() {
@@ -86,7 +90,8 @@ struct JointProblem::Impl {
     for (auto& pose : state.poses) problem.AddParameterBlock(pose.data(), kPoseSize, manifold);
     problem.AddResidualBlock(Cost<AnchorResidual, 6, kPoseSize>({Anchor(), kAnchorSigma_m, kAnchorSigma_rad, options.gravity_sigma_rad}), nullptr,
                              state.poses[0].data());
-    for (size_t i = 1; i < map.keyframes.size(); ++i) {
+    if (map.planar) AddEdges();
+    for (size_t i = 1; i < map.keyframes.size() && !map.planar; ++i) {
       const Keyframe &a = map.keyframes[i - 1], &b = map.keyframes[i];
       const Eigen::Isometry3d step = a.T_odom_kf.inverse() * b.T_odom_kf;
       const double length = step.translation().norm(), turn = Eigen::AngleAxisd(step.linear()).angle();
@@ -96,6 +101,17 @@ struct JointProblem::Impl {
           options.odometry_sigma_rad + options.odometry_sigma_rad_per_m * length + options.odometry_sigma_rad_per_rad * std::abs(turn);
       problem.AddResidualBlock(Cost<OdometryResidual, 6, kPoseSize, kPoseSize>({step, sigma_m, sigma_rad}), &odometry_loss,
                                state.poses[i - 1].data(), state.poses[i].data());
+    }
+  }
+
+  // What odometry and loops say of a planar laser's motion, each with its own covariance.
+  void AddEdges() {
+    const auto unlevel = [&](uint32_t keyframe) { return Eigen::Quaterniond(Leveled(map.keyframes[keyframe].T_map_kf).leveling).conjugate(); };
+    for (const PoseEdge& edge : map.edges) {
+      const Eigen::Matrix3d sqrt_information = edge.covariance.inverse().llt().matrixU();
+      problem.AddResidualBlock(
+          Cost<LevelStepResidual, 3, kPoseSize, kPoseSize>({edge.T_from_to, sqrt_information, unlevel(edge.from), unlevel(edge.to)}),
+          edge.loop ? static_cast<ceres::LossFunction*>(&loop_loss) : &odometry_loss, state.poses[edge.from].data(), state.poses[edge.to].data());
     }
   }
 
@@ -183,6 +199,7 @@ struct JointProblem::Impl {
   JointState& state;
   ceres::CauchyLoss observation_loss;
   ceres::HuberLoss odometry_loss;
+  ceres::CauchyLoss loop_loss;
   ceres::CauchyLoss floor_loss, ceiling_loss;
   std::vector<std::unique_ptr<ceres::LossFunction>> level_losses;
   PoseManifold pose_manifold;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
+#include <optional>
 #include <vector>
 
 #include "schema/checksum.h"
@@ -25,7 +27,68 @@ std::vector<Bytes> Around(Bytes file, std::array<Bytes, 3> holes) {
   return out;
 }
 
+// Follows the offsets of a FlatBuffer that is not in memory. Whatever lies outside the file is nothing.
+class Offsets {
+ public:
+  explicit Offsets(const SparseFile& file) : file_(file) {}
+
+  template <class Number>
+  [[nodiscard]] std::optional<Number> Get(std::optional<size_t> at) const {
+    Number number{};
+    std::array<uint8_t, sizeof(Number)> bytes;
+    if (!at || *at > file_.bytes().size() || !file_.ReadTo(bytes, *at)) return std::nullopt;
+    std::memcpy(&number, bytes.data(), sizeof number);
+    return number;
+  }
+
+  // What the offset `at` leads to.
+  [[nodiscard]] std::optional<size_t> Target(std::optional<size_t> at) const {
+    const auto offset = Get<uint32_t>(at);
+    return offset ? std::optional(*at + *offset) : std::nullopt;
+  }
+
+  // A table's field by its place in the vtable; none if it is left out.
+  [[nodiscard]] std::optional<size_t> Field(std::optional<size_t> table, size_t place) const {
+    const auto back = Get<int32_t>(table);
+    if (!back) return std::nullopt;
+    const size_t vtable = *table - static_cast<size_t>(int64_t{*back});
+    const auto size = Get<uint16_t>(vtable), offset = Get<uint16_t>(vtable + place);
+    if (!size || place + 2 > *size || !offset || *offset == 0) return std::nullopt;
+    return *table + *offset;
+  }
+
+  // The items of the vector that a table's field leads to: from where, and how many bytes.
+  void Items(std::optional<size_t> table, size_t place, size_t item_size, size_t& from, size_t& size) const {
+    const auto vector = Target(Field(table, place));
+    const auto count = Get<uint32_t>(vector);
+    if (!count || *count * item_size > file_.bytes().size() - std::min(file_.bytes().size(), *vector + 4)) return;
+    from = *vector + 4;
+    size = *count * item_size;
+  }
+
+ private:
+  const SparseFile& file_;
+};
+
 }  // namespace
+
+MeshPlace FindMesh(const SparseFile& file) {
+  MeshPlace out;
+  const Offsets offsets(file);
+  const auto graph = offsets.Target(0);
+  if (offsets.Get<uint32_t>(offsets.Field(graph, fb::AGraph::VT_SCHEMA_MAJOR)).value_or(1) < 2) return out;
+  const auto mesh = offsets.Target(offsets.Field(graph, fb::AGraph::VT_MESH));
+  offsets.Items(mesh, fb::Mesh::VT_VERTICES, sizeof(fb::Vec3f), out.vertices, out.vertices_size);
+  offsets.Items(mesh, fb::Mesh::VT_TRIANGLES, sizeof(fb::Triangle), out.triangles, out.triangles_size);
+  return out;
+}
+
+bool ReadAllBut(const MeshPlace& mesh, SparseFile& file) {
+  const Bytes whole = file.bytes();
+  const auto read = [&](Bytes piece) { return file.Read(static_cast<size_t>(piece.data() - whole.data()), piece.size()); };
+  const auto around = Around(whole, {whole.subspan(mesh.vertices, mesh.vertices_size), whole.subspan(mesh.triangles, mesh.triangles_size), Bytes()});
+  return std::all_of(around.begin(), around.end(), read);
+}
 
 size_t ChecksumField(const fb::AGraph& graph, Bytes file) {
   const uint8_t* field = reinterpret_cast<const flatbuffers::Table*>(&graph)->GetAddressOf(fb::AGraph::VT_CHECKSUM);

@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <functional>
 #include <new>
 #include <string_view>
 #include <utility>
@@ -174,20 +174,32 @@ Expected<AGraph> ConvertStructure(const fb::AGraph& in, size_t file_bytes) {
   return out;
 }
 
-Expected<Mesh> ConvertMesh(const fb::AGraph& in, size_t elements) {
+// Copies bytes of the file, which start `from` that place on; false: they are gone.
+using CopyBytes = std::function<bool(std::span<uint8_t> out, size_t from)>;
+
+template <class Item, class FileItem>
+bool CopyItems(const flatbuffers::Vector<const FileItem*>* items, const uint8_t* file, const CopyBytes& copy, std::vector<Item>& out) {
+  const std::span<const uint8_t> bytes = BytesOf(items);
+  if (bytes.empty()) return true;
+  out.resize(items->size());
+  return copy({reinterpret_cast<uint8_t*>(out.data()), bytes.size()}, static_cast<size_t>(bytes.data() - file));
+}
+
+template <class Item>
+std::span<const uint8_t> BytesIn(const std::vector<Item>& items) {
+  return {reinterpret_cast<const uint8_t*>(items.data()), items.size() * sizeof(Item)};
+}
+
+// `file`: of which only the mesh's items need not be there.
+Expected<Mesh> ReadMesh(const uint8_t* file, size_t elements, const CopyBytes& copy) {
   Mesh out;
+  const fb::AGraph& in = *fb::GetAGraph(file);
   const fb::Mesh* mesh = in.mesh();
   if (mesh == nullptr) return out;
-  if (in.schema_major() > 1 && MeshChecksum(BytesOf(mesh->vertices()), BytesOf(mesh->triangles())) != mesh->checksum())
+  if (!CopyItems(mesh->vertices(), file, copy, out.vertices) || !CopyItems(mesh->triangles(), file, copy, out.triangles))
+    return tl::unexpected<Error>(Damaged("its triangles cannot be read, or it was cut short since it was opened"));
+  if (in.schema_major() > 1 && MeshChecksum(BytesIn(out.vertices), BytesIn(out.triangles)) != mesh->checksum())
     return tl::unexpected<Error>(Damaged("the checksum of its triangles does not hold: bytes were changed since it was written"));
-  if (mesh->vertices() != nullptr) {
-    out.vertices.reserve(mesh->vertices()->size());
-    for (const fb::Vec3f* v : *mesh->vertices()) out.vertices.emplace_back(v->x(), v->y(), v->z());
-  }
-  if (mesh->triangles() != nullptr) {
-    out.triangles.reserve(mesh->triangles()->size());
-    for (const fb::Triangle* t : *mesh->triangles()) out.triangles.push_back({t->a(), t->b(), t->c(), t->element()});
-  }
   if (std::string fault = FindMeshFault(out, elements); !fault.empty()) return tl::unexpected<Error>(Contradiction(fault));
   return out;
 }
@@ -226,9 +238,9 @@ Expected<AGraph> ReadGraphWithoutMesh(std::span<const uint8_t> bytes) {
   return Guarded([&] { return ConvertStructure(*fb::GetAGraph(bytes.data()), bytes.size()); });
 }
 
-// Of bytes that Verify has passed.
-Expected<AGraph> WithMesh(std::span<const uint8_t> bytes, AGraph graph) {
-  Expected<Mesh> mesh = Guarded([&] { return ConvertMesh(*fb::GetAGraph(bytes.data()), graph.elements.size()); });
+// `file`: of bytes that Verify has passed.
+Expected<AGraph> WithMesh(const uint8_t* file, AGraph graph, const CopyBytes& copy) {
+  Expected<Mesh> mesh = Guarded([&] { return ReadMesh(file, graph.elements.size(), copy); });
   if (!mesh) return tl::unexpected<Error>(mesh.error());
   graph.mesh = std::move(*mesh);
   return graph;
@@ -241,7 +253,10 @@ tl::unexpected<Error> About(const std::string& path, const Error& error) { retur
 Expected<AGraph> ReadAGraph(std::span<const uint8_t> bytes) {
   Expected<AGraph> graph = ReadGraphWithoutMesh(bytes);
   if (!graph) return graph;
-  return WithMesh(bytes, std::move(*graph));
+  return WithMesh(bytes.data(), std::move(*graph), [&](std::span<uint8_t> out, size_t from) {
+    std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(from), out.size(), out.begin());
+    return true;
+  });
 }
 
 Expected<AGraph> ReadAGraphFile(const std::string& path) {
@@ -251,8 +266,9 @@ Expected<AGraph> ReadAGraphFile(const std::string& path) {
 }
 
 Expected<AGraphFile> AGraphFile::Open(const std::string& path) {
-  Expected<MappedFile> file = MappedFile::Open(path);
+  Expected<SparseFile> file = SparseFile::Open(path);
   if (!file) return tl::unexpected<Error>(file.error());
+  if (!ReadAllBut(FindMesh(*file), *file)) return Fail(ErrorCode::kFileUnreadable, "cannot read all of `" + path + "`");
   Expected<AGraph> graph = ReadGraphWithoutMesh(file->bytes());
   if (!graph) return About(path, graph.error());
   AGraphFile out;
@@ -265,7 +281,8 @@ Expected<AGraphFile> AGraphFile::Open(const std::string& path) {
 }
 
 Expected<AGraph> AGraphFile::Load() && {
-  Expected<AGraph> graph = WithMesh(file_.bytes(), std::move(graph_));
+  Expected<AGraph> graph =
+      WithMesh(file_.bytes().data(), std::move(graph_), [&](std::span<uint8_t> out, size_t from) { return file_.ReadTo(out, from); });
   if (!graph) return About(path_, graph.error());
   return graph;
 }

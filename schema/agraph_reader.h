@@ -21,8 +21,8 @@ namespace plumb {
 // As above; also kFileNotFound, kFileUnreadable.
 [[nodiscard]] Expected<AGraph> ReadAGraphFile(const std::string& path);
 
-// An A-Graph whose triangles, most of a large file, are still in it. The file must not be written to meanwhile; putting another in its
-// place, as WriteAGraphFile does, is no harm.
+// An A-Graph whose triangles, most of a large file, are still in it. Putting another file in its place meanwhile, as WriteAGraphFile does,
+// is no harm; writing to it is found when they are read.
 class AGraphFile {
  public:
   // Errors as ReadAGraphFile, but those of the triangles. Linear in the size of the file without them; files of schema 1.x are read whole
@@ -39,7 +39,7 @@ class AGraphFile {
   AGraphFile() = default;
 
   std::string path_;
-  MappedFile file_;
+  SparseFile file_;
   AGraph graph_;
   size_t triangle_count_ = 0;
 };

@@ -3,7 +3,6 @@
 #include <flatbuffers/flatbuffers.h>
 
 #include <array>
-#include <bit>
 #include <span>
 
 #include "schema/agraph_generated.h"
@@ -189,10 +188,8 @@ using Bytes = std::span<const uint8_t>;
 
 template <class Item>
 Bytes AsInFile(const std::vector<Item>& items) {
-  static_assert(std::endian::native == std::endian::little, "the numbers in a file are little-endian");
   return {reinterpret_cast<const uint8_t*>(items.data()), items.size() * sizeof(Item)};
 }
-static_assert(sizeof(Eigen::Vector3f) == sizeof(fb::Vec3f) && sizeof(Triangle) == sizeof(fb::Triangle));
 
 // The file as it is written, one piece after the other. The mesh, most of a large one, is not copied into the builder: its pages there are
 // never touched, and so take no memory.

@@ -125,19 +125,37 @@ Expected<std::vector<uint8_t>> ReadFileBytes(const std::string& path, size_t max
 
 Expected<std::string> ReadFileText(const std::string& path, size_t max_bytes) { return ReadWhole<std::string>(path, max_bytes); }
 
-Expected<MappedFile> MappedFile::Open(const std::string& path) {
+Expected<SparseFile> SparseFile::Open(const std::string& path) {
   Expected<OpenedFile> opened = OpenForReading(path);
   if (!opened) return tl::unexpected<Error>(opened.error());
-  MappedFile out;
-  if (opened->size == 0) return out;
-  void* at = ::mmap(nullptr, opened->size, PROT_READ, MAP_PRIVATE, opened->file.fd, 0);
-  if (at == MAP_FAILED) return Fail(ErrorCode::kFileUnreadable, "cannot read `" + path + "`: " + Reason());
-  out.bytes_ = {static_cast<uint8_t*>(at), opened->size};
+  SparseFile out;
+  if (opened->size > 0) {
+    void* at = ::mmap(nullptr, opened->size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (at == MAP_FAILED) return Fail(ErrorCode::kFileUnreadable, "cannot read `" + path + "`: " + Reason());
+    out.bytes_ = {static_cast<uint8_t*>(at), opened->size};
+  }
+  out.fd_ = std::exchange(opened->file.fd, -1);
   return out;
 }
 
-MappedFile::~MappedFile() {
+SparseFile::~SparseFile() {
   if (!bytes_.empty()) ::munmap(bytes_.data(), bytes_.size());
+  if (fd_ >= 0) ::close(fd_);
+}
+
+bool SparseFile::Read(size_t from, size_t size) {
+  return from <= bytes_.size() && size <= bytes_.size() - from && ReadTo(bytes_.subspan(from, size), from);
+}
+
+bool SparseFile::ReadTo(std::span<uint8_t> out, size_t from) const {
+  while (!out.empty()) {
+    const ssize_t n = ::pread(fd_, out.data(), out.size(), static_cast<off_t>(from));
+    if (n < 0 && errno == EINTR) continue;
+    if (n <= 0) return false;
+    out = out.subspan(static_cast<size_t>(n));
+    from += static_cast<size_t>(n);
+  }
+  return true;
 }
 
 Expected<void> WriteFileAtomically(const std::string& path, std::span<const uint8_t> bytes) {

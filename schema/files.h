@@ -16,24 +16,32 @@ namespace plumb {
 [[nodiscard]] Expected<std::vector<uint8_t>> ReadFileBytes(const std::string& path, size_t max_bytes = size_t{4} << 30);
 [[nodiscard]] Expected<std::string> ReadFileText(const std::string& path, size_t max_bytes = size_t{4} << 30);
 
-// A whole file as read-only memory that is filled when it is touched. Bytes past an end that the file loses meanwhile end the process
-// (SIGBUS), so it is for files that are replaced, not written to.
-class MappedFile {
+// A file's bytes in memory, of which only those asked for have been read; the others are zero and take no memory. What is done to the file
+// meanwhile can change what is still to be read, nothing else.
+class SparseFile {
  public:
   // Errors as ReadFileBytes, but kFileTooLarge.
-  [[nodiscard]] static Expected<MappedFile> Open(const std::string& path);
+  [[nodiscard]] static Expected<SparseFile> Open(const std::string& path);
 
-  MappedFile() = default;
-  MappedFile(MappedFile&& other) noexcept : bytes_(std::exchange(other.bytes_, {})) {}
-  MappedFile& operator=(MappedFile&& other) noexcept {
+  SparseFile() = default;
+  SparseFile(SparseFile&& other) noexcept : fd_(std::exchange(other.fd_, -1)), bytes_(std::exchange(other.bytes_, {})) {}
+  SparseFile& operator=(SparseFile&& other) noexcept {
+    std::swap(fd_, other.fd_);
     std::swap(bytes_, other.bytes_);
     return *this;
   }
-  ~MappedFile();
+  ~SparseFile();
 
+  // As long as the file was when it was opened.
   [[nodiscard]] std::span<const uint8_t> bytes() const { return bytes_; }
 
+  // Reads what lies `from` that place on into bytes(). False: it cannot be read, or the file has become shorter.
+  [[nodiscard]] bool Read(size_t from, size_t size);
+  // The same to somewhere else.
+  [[nodiscard]] bool ReadTo(std::span<uint8_t> out, size_t from) const;
+
  private:
+  int fd_ = -1;
   std::span<uint8_t> bytes_;
 };
 

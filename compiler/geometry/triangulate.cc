@@ -9,6 +9,7 @@
 #include <cmath>
 #include <cstdint>
 #include <exception>
+#include <new>
 #include <vector>
 
 namespace plumb::compiler {
@@ -159,6 +160,8 @@ Triangulation2 TriangulatePolygon(std::span<const Ring2> rings) {
   if (rings.size() == 1 && TriangulateConvex(rings[0], out.triangles)) return out;
   try {
     (void)TriangulateWithCgal(rings, out);
+  } catch (const std::bad_alloc&) {
+    throw;
   } catch (const std::exception&) {  // CGAL's preconditions on degenerate input
     out.triangles.clear();
   }

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "compiler/passes/assign_storeys.h"
+#include "compiler/passes/opening_extent.h"
 #include "compiler/passes/polygon.h"
 #include "compiler/passes/section.h"
 
@@ -275,20 +276,8 @@ class Host {
     const Eigen::Vector2d axis = wall.axis_end - wall.axis_start;
     const double off_axis = axis.norm() > 0 ? std::abs(Cross(axis.normalized(), p - wall.axis_start)) : 0;
     const bool curved = !floors_.walls[w].arcs.empty() || off_axis > wall.thickness_m;
-    if (!curved && axis.norm() > 0) return axis.normalized();
-    // Bent walls: the direction of the side next to it.
-    double best_m = std::numeric_limits<double>::infinity();
-    Eigen::Vector2d best = axis.norm() > 0 ? Eigen::Vector2d(axis.normalized()) : Eigen::Vector2d::UnitX();
-    for (const Ring& ring : rings) {
-      for (size_t i = 0; i < ring.size(); ++i) {
-        const Eigen::Vector2d &a = ring[i], &b = ring[(i + 1) % ring.size()];
-        const double distance = DistanceToSegment(p, a, b);
-        if (distance >= best_m - 1e-6) continue;
-        best_m = distance;
-        best = (b - a).normalized();
-      }
-    }
-    return best;
+    if (axis.norm() == 0) return SideNextTo(rings, p).value_or(Eigen::Vector2d::UnitX());
+    return curved ? SideNextTo(rings, p).value_or(axis.normalized()) : Eigen::Vector2d(axis.normalized());
   }
 
   void AlignToWall(const Candidate& c, HostedOpening& out) const {
@@ -299,44 +288,19 @@ class Host {
     const Eigen::Vector2d across = Rot90Ccw(out.along);
     Eigen::AlignedBox2d extent;
     for (const auto& p : c.outline) extent.extend(Eigen::Vector2d(out.along.dot(p), across.dot(p)));
+    extent = WithinWall(extent, out.along, rings);
     out.width_m = extent.sizes().x();
-    const Wall& wall = graph_.walls[w];
     const double u = extent.center().x();
     // The wall's piece at this place: the interval of the line across it next to the opening.
     const Eigen::Vector2d at = u * out.along + extent.center().y() * across;
-    const auto [lo, hi] = SolidInterval(rings, at, across, wall);
+    const Wall& wall = graph_.walls[w];
+    const double offset = across.dot(wall.axis_start - at);
+    const auto [lo, hi] = SolidInterval(rings, at, across).value_or(std::pair(offset - 0.5 * wall.thickness_m, offset + 0.5 * wall.thickness_m));
     out.center = at + 0.5 * (lo + hi) * across;
     out.depth_m = hi - lo;
     const double half = 0.5 * extent.sizes().y();
     const double taken = std::min(hi, half) - std::max(lo, -half);
     out.through = out.use != OpeningUse::kUnfilled || taken >= kThroughShare * out.depth_m;
-  }
-
-  // Where the line at + t * across runs inside the rings, the interval nearest to t = 0. Falls back to the wall's axis and thickness.
-  static std::pair<double, double> SolidInterval(const std::vector<Ring>& rings, const Eigen::Vector2d& at, const Eigen::Vector2d& across,
-                                                 const Wall& wall) {
-    std::vector<std::pair<double, int>> crossings;
-    for (const Ring& ring : rings) {
-      for (size_t i = 0; i < ring.size(); ++i) {
-        const Eigen::Vector2d p = ring[i] - at, q = ring[(i + 1) % ring.size()] - at;
-        const double sp = Cross(across, p), sq = Cross(across, q);
-        if ((sp <= 0) == (sq <= 0)) continue;
-        crossings.emplace_back(across.dot(p + (q - p) * (sp / (sp - sq))), sp > 0 ? 1 : -1);
-      }
-    }
-    std::sort(crossings.begin(), crossings.end());
-    std::optional<std::pair<double, double>> best;
-    int winding = 0;
-    double begin = 0;
-    const auto distance = [](const std::pair<double, double>& i) { return std::max({0.0, i.first, -i.second}); };
-    for (const auto& [t, step] : crossings) {
-      if (winding == 0) begin = t;
-      winding += step;
-      if (winding == 0 && (!best || distance({begin, t}) < distance(*best))) best = {begin, t};
-    }
-    if (best) return *best;
-    const double offset = across.dot(wall.axis_start - at);
-    return {offset - 0.5 * wall.thickness_m, offset + 0.5 * wall.thickness_m};
   }
 
   const PlanIr& plan_;

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <deque>
 #include <map>
+#include <new>
 #include <set>
 
 #include "compiler/passes/face_locator.h"
@@ -325,6 +326,8 @@ std::string PlanarMapOptions::Check() const {
 Expected<void> BuildPlanarMap(Floor& floor, const PlanarMapOptions& options) {
   try {
     MapBuilder(floor, options).Run();
+  } catch (const std::bad_alloc&) {
+    throw;  // the plan is too complex, which the compiler says
   } catch (const std::exception& e) {
     return Fail(ErrorCode::kInternal, fmt::format("the arrangement of the level at {:.3f} m failed: {}", floor.level.base_z_m, e.what()));
   }

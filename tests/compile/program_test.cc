@@ -30,8 +30,9 @@ class Program : public ::testing::Test {
  protected:
   void SetUp() override { ASSERT_TRUE(WriteAGraphFile(test::MakeHouse(), folder_ / "house.agraph")); }
 
-  Outcome Plumb(const std::string& arguments) {
-    const std::string command = "cd '" + folder_.path() + "' && timeout 60 '" PLUMB_PROGRAM "' " + arguments + " > .out 2> .err";
+  // `first`: of the shell, before the program.
+  Outcome Plumb(const std::string& arguments, const std::string& first = "true") {
+    const std::string command = "cd '" + folder_.path() + "' && " + first + " && timeout 60 '" PLUMB_PROGRAM "' " + arguments + " > .out 2> .err";
     const int status = std::system(command.c_str());
     Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, Read(".out"), Read(".err")};
     fs::remove(folder_ / ".out");
@@ -75,6 +76,20 @@ TEST_F(Program, ValidateSaysTheSameInEveryFormat) {
       EXPECT_THAT(text.out, HasSubstr("[" + report["diagnostics"][i]["code"].get<std::string>() + "]"));
     }
   }
+}
+
+// 150 walls across 150 others are 22,500 rooms: more than fits into what the test leaves the program.
+TEST_F(Program, PlanThatNeedsTooMuchMemoryIsBadInput) {
+  std::string svg = "<svg xmlns='http://www.w3.org/2000/svg' width='310m' height='310m' viewBox='0 0 310 310'><g id='Walls'>\n";
+  for (int i = 0; i <= 150; ++i) {
+    svg += "<rect x='" + std::to_string(2 * i) + "' y='0' width='0.2' height='301'/>\n";
+    svg += "<rect x='0' y='" + std::to_string(2 * i) + "' width='301' height='0.2'/>\n";
+  }
+  Write("grid.svg", svg + "</g></svg>\n");
+  const Outcome outcome = Plumb("compile grid.svg --scale 1 -o grid.agraph", "ulimit -v 120000");
+  EXPECT_EQ(outcome.status, 2) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("[PL1005]"));
+  EXPECT_FALSE(fs::exists(folder_ / "grid.agraph"));
 }
 
 TEST_F(Program, StrictMakesFindingsOfWarnings) {

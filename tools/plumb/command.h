@@ -37,6 +37,12 @@ struct Session {
 // The flags of `plumb compile` that change what a plan becomes; `plumb validate` has them too.
 void AddCompileOptions(CLI::App& subcommand, compiler::CompileOptions& options);
 
+// Of the subcommands in the second program (second_program.h), which the first lists, too.
+inline constexpr const char* kSimulateName = "simulate";
+inline constexpr const char* kSimulateSummary = "Build a house off its plan, drive a LiDAR through it and record";
+inline constexpr const char* kLocalizeName = "localize";
+inline constexpr const char* kLocalizeSummary = "Find the robot in the plan, track it, and measure how far each wall is off";
+
 void AddCompile(CLI::App& app, Session& session);
 void AddDoctor(CLI::App& app, Session& session);
 void AddEvaluate(CLI::App& app, Session& session);

@@ -211,7 +211,7 @@ Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
 void AddLocalize(CLI::App& app, Session& session) {
   auto flags = std::make_shared<LocalizeFlags>();
   runtime::LocalizerOptions& o = flags->options;
-  CLI::App* sub = AddSubcommand(app, session, "localize", "Find the robot in the plan, track it, and measure how far each wall is off",
+  CLI::App* sub = AddSubcommand(app, session, kLocalizeName, kLocalizeSummary,
                                 "  plumb localize house.agraph rec/ -o run/\n"
                                 "  plumb localize house.agraph rec/ -o run/ --no-odometry --tolerance 0.03");
   sub->add_option("FILE.agraph", flags->plan, "the plan")->required();

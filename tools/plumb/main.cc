@@ -10,6 +10,7 @@
 
 #include "tools/plumb/command.h"
 #include "tools/plumb/config.h"
+#include "tools/plumb/second_program.h"
 
 namespace plumb::tools {
 
@@ -40,19 +41,20 @@ std::string WithHint(const CLI::App& app, const CLI::ParseError& error, const st
   return message;
 }
 
-// Subcommands whose library this build does without are not there.
+#ifdef PLUMB_SECOND_PROGRAM
+void AddSubcommands(CLI::App& app, Session& session) {
+  AddSimulate(app, session);
+  AddLocalize(app, session);
+}
+#else
+// A robot builds without the compiler and its subcommands.
 void AddSubcommands(CLI::App& app, Session& session) {
 #ifdef PLUMB_WITH_COMPILER
   AddCompile(app, session);
   AddValidate(app, session);
 #endif
   AddInspect(app, session);
-#ifdef PLUMB_WITH_SIMULATE
-  AddSimulate(app, session);
-#endif
-#ifdef PLUMB_WITH_LOCALIZE
-  AddLocalize(app, session);
-#endif
+  AddSecondProgram(app);
   AddEvaluate(app, session);
   AddReport(app, session);
   AddDoctor(app, session);
@@ -60,6 +62,7 @@ void AddSubcommands(CLI::App& app, Session& session) {
   AddExplain(app, session);
 #endif
 }
+#endif
 
 int Parse(CLI::App& app, Session& session, std::vector<std::string> arguments) {
   if (arguments.empty()) arguments.emplace_back("--help");
@@ -99,6 +102,12 @@ CLI::App* AddSubcommand(CLI::App& app, Session& session, const std::string& name
 int main(int argc, char** argv) {
   plumb::tools::Session session;
   try {
+#ifndef PLUMB_SECOND_PROGRAM
+    if (argc > 1 && plumb::tools::IsInSecondProgram(argv[1])) {
+      session.console.Error(plumb::tools::RunSecondProgram(argv));
+      return static_cast<int>(plumb::tools::Status::kInternal);
+    }
+#endif
     CLI::App app("Plumb tells how far a building stands from its plan, and where the robot stands in it.", "plumb");
     app.set_version_flag("--version", "plumb " PLUMB_VERSION);
     app.require_subcommand(1);

@@ -78,7 +78,7 @@ Status RunSimulate(const SimulateFlags& flags, Session& session) {
 void AddSimulate(CLI::App& app, Session& session) {
   auto flags = std::make_shared<SimulateFlags>();
   SimulateOptions& o = flags->options;
-  CLI::App* sub = AddSubcommand(app, session, "simulate", "Build a house off its plan, drive a LiDAR through it and record",
+  CLI::App* sub = AddSubcommand(app, session, kSimulateName, kSimulateSummary,
                                 "  plumb simulate house.agraph --seed 1 --deviate 3 --translation 0.05:0.35 --rotation 0:5 --sensor vlp16 -o rec/\n"
                                 "  plumb simulate house.agraph --deviate 0 --duration 60 --max-duration 60 -o short/");
   std::string sensors;

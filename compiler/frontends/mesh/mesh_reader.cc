@@ -1,15 +1,18 @@
 #include "compiler/frontends/mesh/mesh_reader.h"
 
-#include <assimp/DefaultIOSystem.h>
-#include <assimp/MemoryIOWrapper.h>
+#include <assimp/cfileio.h>
+#include <assimp/cimport.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
+#include <dlfcn.h>
 #include <fmt/format.h>
 
-#include <assimp/Importer.hpp>
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
+
+#include "schema/files.h"
 
 namespace plumb::compiler {
 namespace {
@@ -17,21 +20,81 @@ namespace {
 constexpr int kMaxDepth = 200;
 constexpr const char* kMainName = "plumb-mesh";
 
+// assimp's C interface, loaded when a mesh is read: no other plan waits for it, nor has its 3 MB in memory.
+struct AssimpLibrary {
+  decltype(&aiImportFileEx) import_file = nullptr;
+  decltype(&aiGetErrorString) error_string = nullptr;
+
+  // Stays until the process ends.
+  static Expected<AssimpLibrary> Load() {
+    AssimpLibrary out;
+    void* library = dlopen(PLUMB_ASSIMP_LIBRARY, RTLD_NOW | RTLD_LOCAL);
+    if (library != nullptr) {
+      out.import_file = reinterpret_cast<decltype(out.import_file)>(dlsym(library, "aiImportFileEx"));
+      out.error_string = reinterpret_cast<decltype(out.error_string)>(dlsym(library, "aiGetErrorString"));
+    }
+    if (out.import_file != nullptr && out.error_string != nullptr) return out;
+    return Fail(ErrorCode::kFileUnreadable, fmt::format("meshes cannot be read: {}", dlerror()));
+  }
+};
+
+// A file in memory, read by assimp.
+class OpenFile {
+ public:
+  explicit OpenFile(std::string_view bytes) : bytes_(bytes) {}
+  explicit OpenFile(std::string content) : content_(std::move(content)), bytes_(content_) {}
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  aiFile* face() { return &face_; }
+  static OpenFile& Of(aiFile* face) { return *reinterpret_cast<OpenFile*>(face->UserData); }
+
+ private:
+  static size_t Read(aiFile* face, char* out, size_t size, size_t count) {
+    OpenFile& file = Of(face);
+    if (size == 0) return 0;
+    count = std::min(count, (file.bytes_.size() - file.at_) / size);
+    std::copy_n(file.bytes_.data() + file.at_, size * count, out);
+    file.at_ += size * count;
+    return count;
+  }
+  static size_t Write(aiFile*, const char*, size_t, size_t) { return 0; }
+  static size_t Tell(aiFile* face) { return Of(face).at_; }
+  static size_t Size(aiFile* face) { return Of(face).bytes_.size(); }
+  static void Flush(aiFile*) {}
+  static aiReturn Seek(aiFile* face, size_t offset, aiOrigin origin) {
+    OpenFile& file = Of(face);
+    const size_t from = origin == aiOrigin_SET ? 0 : origin == aiOrigin_CUR ? file.at_ : file.bytes_.size();
+    const size_t to = from + offset;  // back wraps around
+    if (to > file.bytes_.size()) return aiReturn_FAILURE;
+    file.at_ = to;
+    return aiReturn_SUCCESS;
+  }
+
+  std::string content_;
+  std::string_view bytes_;
+  size_t at_ = 0;
+  aiFile face_{Read, Write, Tell, Size, Seek, Flush, reinterpret_cast<char*>(this)};
+};
+
 // The mesh itself from memory; beside it only files of its own folder, for reading.
-class FolderOnly : public Assimp::DefaultIOSystem {
+class FolderOnly {
  public:
   FolderOnly(std::string_view bytes, std::string main, std::string folder)
       : bytes_(bytes), main_(std::move(main)), folder_(std::move(folder)) {}
 
-  bool Exists(const char* file) const override { return file == main_ || (IsBeside(file) && DefaultIOSystem::Exists(Path(file).c_str())); }
-
-  Assimp::IOStream* Open(const char* file, const char* mode) override {
-    if (file == main_) return new Assimp::MemoryIOStream(reinterpret_cast<const uint8_t*>(bytes_.data()), bytes_.size());
-    if (mode[0] != 'r' || !IsBeside(file)) return nullptr;
-    return DefaultIOSystem::Open(Path(file).c_str(), mode);
-  }
+  aiFileIO face() { return {Open, Close, reinterpret_cast<char*>(this)}; }
 
  private:
+  static aiFile* Open(aiFileIO* face, const char* file, const char* mode) {
+    const FolderOnly& folder = *reinterpret_cast<FolderOnly*>(face->UserData);
+    if (file == folder.main_) return (new OpenFile(folder.bytes_))->face();
+    if (mode[0] != 'r' || !IsBeside(file)) return nullptr;
+    auto content = ReadFileText((std::filesystem::path(folder.folder_) / Bare(file)).string());
+    return content ? (new OpenFile(std::move(*content)))->face() : nullptr;
+  }
+  static void Close(aiFileIO*, aiFile* file) { delete &OpenFile::Of(file); }
+
   static std::string Bare(std::string_view file) {
     while (file.starts_with("./")) file.remove_prefix(2);
     return std::string(file);
@@ -40,7 +103,6 @@ class FolderOnly : public Assimp::DefaultIOSystem {
     const std::string name = Bare(file);
     return !name.empty() && name.find("..") == std::string::npos && name[0] != '/' && name.find('\\') == std::string::npos;
   }
-  std::string Path(const char* file) const { return (std::filesystem::path(folder_) / Bare(file)).string(); }
 
   std::string_view bytes_;
   std::string main_, folder_;
@@ -144,11 +206,13 @@ bool GetObject(Cursor& in, MeshObject& object) {
 
 Expected<std::vector<MeshObject>> ReadWithAssimp(std::string_view bytes, const std::string& hint, const std::string& folder,
                                                  size_t max_triangles) {
-  Assimp::Importer importer;
+  const auto assimp = AssimpLibrary::Load();
+  if (!assimp) return tl::unexpected<Error>(assimp.error());
   const std::string main = std::string(kMainName) + "." + hint;
-  importer.SetIOHandler(new FolderOnly(bytes, main, folder));  // the importer owns it
-  const aiScene* scene = importer.ReadFile(main, aiProcess_Triangulate | aiProcess_SortByPType);
-  if (scene == nullptr || scene->mRootNode == nullptr) return Fail(ErrorCode::kFileUnreadable, importer.GetErrorString());
+  FolderOnly files(bytes, main, folder);
+  aiFileIO io = files.face();
+  const aiScene* scene = assimp->import_file(main.c_str(), aiProcess_Triangulate | aiProcess_SortByPType, &io);
+  if (scene == nullptr || scene->mRootNode == nullptr) return Fail(ErrorCode::kFileUnreadable, assimp->error_string());
   return Flattener(*scene, max_triangles).Run();
 }
 

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <fstream>
 #include <limits>
 #include <random>
 
@@ -171,6 +172,30 @@ TEST_F(OpenedFile, OutlivesAnotherFileInItsPlace) {
   const Expected<AGraph> whole = std::move(*file).Load();
   ASSERT_TRUE(whole);
   EXPECT_EQ(WriteAGraph(*whole), bytes_);
+}
+
+// As a program that copies a file does that is stopped, or that starts anew.
+TEST_F(OpenedFile, SaysThatItWasCutShortMeanwhile) {
+  for (size_t left : {bytes_.size() - 1, bytes_.size() - mesh_bytes_, size_t{100}, size_t{0}}) {
+    ASSERT_TRUE(WriteAGraphFile(house_, path_));
+    Expected<AGraphFile> file = AGraphFile::Open(path_);
+    ASSERT_TRUE(file);
+    std::filesystem::resize_file(path_, left);
+    const Expected<AGraph> whole = std::move(*file).Load();
+    ASSERT_FALSE(whole) << left;
+    EXPECT_EQ(whole.error().code, ErrorCode::kAGraphDamaged);
+    EXPECT_NE(whole.error().message.find("cut short"), std::string::npos) << whole.error().message;
+  }
+}
+
+TEST_F(OpenedFile, SaysThatTheTrianglesWereWrittenOverMeanwhile) {
+  ASSERT_TRUE(WriteAGraphFile(house_, path_));
+  Expected<AGraphFile> file = AGraphFile::Open(path_);
+  ASSERT_TRUE(file);
+  std::fstream(path_, std::ios::in | std::ios::out | std::ios::binary).seekp(static_cast<std::streamoff>(bytes_.size() - mesh_bytes_ / 2)).put('!');
+  const Expected<AGraph> whole = std::move(*file).Load();
+  ASSERT_FALSE(whole);
+  EXPECT_EQ(whole.error().code, ErrorCode::kAGraphDamaged);
 }
 
 // The mesh is the last of the file: what is in front of it is refused at once, it itself when it is asked for.

@@ -17,8 +17,8 @@ constexpr double kEdge_m = 0.3;
 }  // namespace
 
 SightLines::SightLines(const SGraph& map, const Eigen::Isometry3d& T_plan_map) : origin_(T_plan_map.translation()), vertical_edge_m_(map.planar ? 0 : kEdge_m) {
-  lines_.reserve(map.keyframes.size() * kPerKeyframe);
   for (const Keyframe& keyframe : map.keyframes) {
+    if (keyframe.merged) continue;
     const Eigen::Isometry3f T = (Eigen::Translation3d(-origin_) * T_plan_map * keyframe.T_map_kf).cast<float>();
     const size_t step = std::max<size_t>(1, keyframe.points.size() / kPerKeyframe);
     for (size_t i = 0; i < keyframe.points.size(); i += step) lines_.push_back({T.translation(), T * keyframe.points[i]});

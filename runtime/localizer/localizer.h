@@ -1,46 +1,19 @@
 // The whole runtime behind one class: scans in, a verdict and a pose on every scan, deviations at any time.
 #pragma once
 
-#include <memory>
 #include <optional>
-#include <string>
-#include <vector>
 
-#include "runtime/coupling/coupling.h"
-#include "runtime/deviations/deviations.h"
-#include "runtime/mapping/mapper.h"
-#include "runtime/matching/matcher.h"
+#include "runtime/localizer/graph_estimator.h"
+#include "runtime/localizer/localizer_options.h"
 #include "runtime/odometry/odometry.h"
-#include "runtime/optimization/joint_optimizer.h"
 
 namespace plumb::runtime {
-
-enum class Verdict : uint8_t { kSearching, kAmbiguous, kLocalized, kLost };
-[[nodiscard]] const char* VerdictName(Verdict verdict);  // searching | ambiguous | localized | lost
-
-struct LocalizerOptions {
-  int optimize_every = 1;          // keyframes between two joint solves once localized
-  int rescore_every = 10;          // keyframes between two re-scorings of the fix against its rivals and against "outside the plan"
-  int lost_after = 2;              // as many re-scorings in a row that speak against the fix end it
-  double rival_margin_nats = 5.0;  // a rival must be better by this much to count against the fix
-  OdometryOptions odometry;
-  MapperOptions mapper;
-  MatcherOptions matcher;
-  CouplingOptions coupling;
-  JointOptions joint;
-  DeviationOptions deviations;
-  [[nodiscard]] std::string Check() const;
-};
-
-struct StageTime {
-  std::string stage;  // odometry, mapping, matching, optimization
-  double ms = 0;
-};
 
 struct ScanVerdict {
   double stamp_s = 0;
   Verdict verdict = Verdict::kSearching;
   int hypotheses = 0;
+  bool in_order = true;  // else the stamp is not later than an earlier scan's: the scan is left out, and this is about the one before
   bool timed = false;  // per-point times were usable; else "deskew off"
   std::optional<Eigen::Isometry3d> T_plan_lidar;  // at the stamp, from the first fix on; when lost, dead reckoning from the last one
   std::vector<StageTime> timing;
@@ -49,32 +22,47 @@ struct ScanVerdict {
 // What a given odometry (any start frame) says of the lidar's motion during `scan`; none where it does not cover the sweep.
 [[nodiscard]] std::optional<Odometry::GivenMotion> GivenMotionDuring(const Scan& scan, const Trajectory& given_odometry);
 
-// Single-threaded and deterministic: the same scans give the same verdicts, poses and deviations.
+// Starts no threads and is deterministic: the same scans give the same verdicts, poses and deviations. The steps of AddScan() share no state, so
+// that each may run on a thread of its own, as long as every one of them gets the scans in their order (replay.h, online_localizer.h).
 class Localizer {
  public:
   // `plan` must outlive it; `options` must pass Check().
   Localizer(const AGraph& plan, const LocalizerOptions& options = {});
-  ~Localizer();
 
-  // The next scan in time order. `given`: see Odometry::Register.
+  // The next scan. One whose stamp is not later than all before it is left out. `given`: see Odometry::Register.
   [[nodiscard]] ScanVerdict AddScan(const Scan& scan, const std::optional<Odometry::GivenMotion>& given);
 
-  // After the last scan (or whenever asked): a final solve over everything.
-  void Finish();
+  // Its steps. Odometry: some milliseconds.
+  [[nodiscard]] RegisteredScan Register(const Scan& scan, const std::optional<Odometry::GivenMotion>& given);
+  // Map, match, solve: up to seconds. `hold`: see GraphEstimator::Add.
+  [[nodiscard]] GraphState UpdateGraph(const RegisteredScan& scan, bool hold = false) { return graph_.Add(scan, hold); }
+  // The verdict on a scan, given what the graph knew after it, or after some earlier one. Next to nothing.
+  [[nodiscard]] ScanVerdict Track(const RegisteredScan& scan, const GraphState& graph);
+
+  // After the last scan (or whenever asked, with no step running): a final solve over everything.
+  void Finish() { graph_.Finish(); }
 
   // Where the map lies in the plan; none while not localized.
   [[nodiscard]] std::optional<Eigen::Isometry3d> T_plan_map() const;
-  [[nodiscard]] const SGraph& map() const;  // the present one
-  [[nodiscard]] const MatchResult& last_match() const;
-  [[nodiscard]] const JointResult& estimate() const;
-  [[nodiscard]] DeviationReport Deviations() const;
-  // Plan frame, with all knowledge so far: all scans that could be registered to the present map, if it lies in the plan, after those of maps that were given up because the
-  // robot was carried off (odometry.h: restarted).
+  [[nodiscard]] const SGraph& map() const { return graph_.map(); }  // the present one
+  [[nodiscard]] const MatchResult& last_match() const { return graph_.last_match(); }
+  [[nodiscard]] const JointResult& estimate() const { return graph_.estimate(); }
+  [[nodiscard]] DeviationReport Deviations() const { return graph_.Deviations(); }
+  // Plan frame, with all knowledge so far: all scans that could be registered to the present map, if it lies in the plan, after those of maps
+  // that were given up because the robot was carried off (odometry.h: restarted).
   [[nodiscard]] Trajectory SmoothedTrajectory() const;
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  [[nodiscard]] bool localized() const { return graph_.placed() && !blind(); }
+  [[nodiscard]] bool blind() const;
+
+  // One step's state each.
+  Odometry odometry_;
+  int odometry_map_ = 0;
+  std::optional<double> last_stamp_s_;
+  Eigen::Isometry3d T_odom_last_ = Eigen::Isometry3d::Identity();
+  GraphEstimator graph_;
+  int failed_scans_ = 0;  // in a row
 };
 
 }  // namespace plumb::runtime

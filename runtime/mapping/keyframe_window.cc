@@ -57,6 +57,7 @@ std::vector<Eigen::Vector3f> KeyframeWindow::ThinnedPoints() const {
   const size_t step = thinned.size() / static_cast<size_t>(options_.max_keyframe_points) + 1;
   for (size_t i = 0; i * step < thinned.size(); ++i) thinned[i] = thinned[i * step];
   thinned.resize((thinned.size() + step - 1) / step);
+  thinned.shrink_to_fit();  // kept for as long as the map
   return thinned;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "runtime/mapping/keyframe_merging.h"
 #include "runtime/mapping/planar_segmentation.h"
 #include "runtime/mapping/segmentation.h"
 #include "runtime/odometry/planar/planar_scan.h"
@@ -38,6 +39,11 @@ std::string MapperOptions::Check() const {
   if (!(min_range_m > 0)) return bad("min_range_m", min_range_m, "> 0");
   if (!(max_range_m > min_range_m)) return bad("max_range_m", max_range_m, "> min_range_m");
   if (!(plane_sigma_m >= 0.002 && plane_sigma_m <= 0.2)) return bad("plane_sigma_m", plane_sigma_m, "in [0.002, 0.2]");
+  if (!(redundant_distance_m >= 0)) return bad("redundant_distance_m", redundant_distance_m, ">= 0");
+  if (!(redundant_share > 0.5 && redundant_share <= 1)) return bad("redundant_share", redundant_share, "in (0.5, 1]");
+  if (well_known_views < 1) return bad("well_known_views", well_known_views, ">= 1");
+  if (recent_keyframes < 1) return bad("recent_keyframes", recent_keyframes, ">= 1");
+  if (max_map_points < 10000) return bad("max_map_points", max_map_points, ">= 10000");
   if (min_segment_points < 3) return bad("min_segment_points", min_segment_points, ">= 3");
   if (min_line_points < 3) return bad("min_line_points", min_line_points, ">= 3");
   if (!(min_segment_extent_m >= 0)) return bad("min_segment_extent_m", min_segment_extent_m, ">= 0");
@@ -81,13 +87,33 @@ bool Mapper::CloseWindow() {
   keyframe.T_map_kf = T_map_odom_ * window.T_odom_kf();
   keyframe.points = window.ThinnedPoints();
   if (keyframe.points.empty()) return false;
+  if (!graph_.keyframes.empty()) {
+    const Keyframe& last = graph_.keyframes.back();
+    const Distance moved = Between(last.T_odom_kf, keyframe.T_odom_kf);
+    keyframe.travelled_m = last.travelled_m + moved.m;
+    keyframe.turned_rad = last.turned_rad + moved.rad;
+  }
   graph_.keyframes.push_back(std::move(keyframe));
   graph_.planar = window.planar();
   const std::vector<Segment> segments = window.planar() ? ExtractLineSegments(window, options_) : ExtractSegments(window, options_);
   for (const Segment& segment : segments) AddSegment(segment, graph_.keyframes.back());
   MergeDuplicates();
-  if (window.planar()) CloseLoops(window);
+  if (window.planar()) {
+    CloseLoops(window);
+  } else {
+    BoundKeyframes();
+  }
   return true;
+}
+
+// Merges the keyframe that has just ceased to be recent, if it can be.
+void Mapper::BoundKeyframes() {
+  const size_t recent = static_cast<size_t>(options_.recent_keyframes);
+  if (graph_.keyframes.size() > recent) {
+    const uint32_t oldest = static_cast<uint32_t>(graph_.keyframes.size() - recent - 1);
+    if (const std::optional<uint32_t> into = RedundantTo(graph_, oldest, options_)) MergeKeyframe(oldest, *into, &graph_);
+  }
+  BoundPoints(static_cast<size_t>(options_.max_map_points), &graph_.keyframes);
 }
 
 // After a planar keyframe.
@@ -166,6 +192,9 @@ void Mapper::MergeDuplicates() {
 }
 
 void Mapper::OnPosesChanged() {
+  for (Keyframe& keyframe : graph_.keyframes) {
+    if (keyframe.merged) keyframe.T_map_kf = graph_.keyframes[keyframe.merged->into].T_map_kf * keyframe.merged->T_into_kf;
+  }
   for (size_t i = 0; i < graph_.surfaces.size(); ++i) {
     if (!graph_.surfaces[i].observations.empty()) Recompute(graph_.keyframes, &graph_.surfaces[i], &tracks_[i]);
   }

@@ -11,6 +11,13 @@ struct MapperOptions {
   double keyframe_interval_s = 2.0;      // ... or this long
   double keyframe_voxel_m = 0.05;        // points of a keyframe are thinned to one per voxel, ...
   int max_keyframe_points = 12000;       // ... and further, evenly, to this many
+  // A keyframe that is no longer among the newest `recent_keyframes` is merged into an older one at most this far off (0: never), if that one saw
+  // `redundant_share` of its points' surfaces as well and each of those has been seen from `well_known_views` keyframes besides.
+  double redundant_distance_m = 0.5;
+  double redundant_share = 0.9;
+  int well_known_views = 5;
+  int recent_keyframes = 20;
+  int max_map_points = 4000000;          // of all keyframes (12 bytes each); beyond, those with most are thinned to half
   double min_range_m = 0.4, max_range_m = 60.0;
   double plane_sigma_m = 0.03;           // expected spread of points about a wall; the inlier band is 3 sigma
   int min_segment_points = 50;

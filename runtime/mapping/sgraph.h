@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "runtime/odometry/planar/pose2.h"
@@ -81,6 +82,15 @@ struct Keyframe {
   Eigen::Isometry3d T_map_kf = Eigen::Isometry3d::Identity();   // current estimate
   Eigen::Isometry3d T_odom_kf = Eigen::Isometry3d::Identity();  // as odometry gave it, never changed
   std::vector<Eigen::Vector3f> points;                          // deskewed, down-sampled, keyframe frame
+  // Along odometry's way from the first keyframe to this one, keyframe by keyframe.
+  double travelled_m = 0, turned_rad = 0;
+
+  // A keyframe that told nothing new was merged into an older one (keyframe_merging.h): that one has its observations and carries it along.
+  struct Merged {
+    uint32_t into = 0;  // itself never merged
+    Eigen::Isometry3d T_into_kf = Eigen::Isometry3d::Identity();
+  };
+  std::optional<Merged> merged;
 };
 
 // Pose of `to` in `from` as measured; covariance of (x, y, yaw) in the axes of `from`.
@@ -95,7 +105,7 @@ struct SGraph {
   // Made by a planar laser: walls are seen on one line, in the plane of the keyframes, whose height above the floor is not known; there are no
   // floors and ceilings, and height, roll and pitch of keyframes are conventions.
   bool planar = false;
-  std::vector<Keyframe> keyframes;
+  std::vector<Keyframe> keyframes;   // ids are stable; merged ones keep their slot, without points
   std::vector<PoseEdge> edges;  // between keyframes, of their levelled frames; by a planar laser: odometry's steps and the loops
   std::vector<MapSurface> surfaces;  // ids are stable; merged ones keep their slot with no observations
 };

@@ -63,7 +63,9 @@ std::string SGraphToJson(const SGraph& graph, const std::optional<Eigen::Isometr
   out["version"] = 1;
   out["frame"] = T_plan_map ? "plan" : "map";
   out["keyframes"] = Json::array();
-  for (const Keyframe& keyframe : graph.keyframes) out["keyframes"].push_back(KeyframeEntry(keyframe, T_out_map));
+  for (const Keyframe& keyframe : graph.keyframes) {
+    if (!keyframe.merged) out["keyframes"].push_back(KeyframeEntry(keyframe, T_out_map));
+  }
   out["surfaces"] = Json::array();
   for (const MapSurface& surface : graph.surfaces) {
     if (!surface.observations.empty()) out["surfaces"].push_back(SurfaceEntry(surface, T_out_map));

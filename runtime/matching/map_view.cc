@@ -64,6 +64,9 @@ std::vector<const Keyframe*> SpreadKeyframes(const SGraph& map, int max_keyframe
     return std::max(gap_m / kKeyframeSpacing_m, turn_rad / kKeyframeTurn_rad);
   };
   std::vector<double> nearest(map.keyframes.size(), 1e300);
+  for (size_t i = 0; i < nearest.size(); ++i) {
+    if (map.keyframes[i].merged) nearest[i] = 0;
+  }
   size_t next = 0;
   while (static_cast<int>(chosen.size()) < max_keyframes) {
     chosen.push_back(&map.keyframes[next]);

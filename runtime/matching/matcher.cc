@@ -26,6 +26,8 @@ constexpr double kLowestMargin_m = 0.1;
 class PoseSearch {
  public:
   PoseSearch(const AGraph& graph, const MatcherOptions& search_options) : plan(graph), options(search_options) {}
+  // In the mirror image of another's plan.
+  PoseSearch(const AGraph& image, const PoseSearch& original) : plan(image, original.plan), options(original.options) {}
 
   // Refined and judged by all rays, best first.
   [[nodiscard]] std::vector<Candidate> Finalists(const MapView& map) const {
@@ -160,7 +162,7 @@ struct Matcher::Impl {
   PoseSearch mirrored;
 
   Impl(const AGraph& plan, const MatcherOptions& options)
-      : search(plan, options), mirror_image(MirrorImage(plan)), mirrored(mirror_image, options) {}
+      : search(plan, options), mirror_image(MirrorImage(plan)), mirrored(mirror_image, search) {}
 
   // Log-likelihood of the best pose in the mirror image, 0 if there is none or if it is the plan itself.
   [[nodiscard]] double MirroredLikelihood(const MapView& map, const PlanarPose& pose) const {

@@ -24,7 +24,6 @@ AGraph MirrorImage(const AGraph& plan) {
   image.windows = plan.windows;
   image.columns = plan.columns;
   image.elements = plan.elements;
-  image.mesh = plan.mesh;
   const auto flip = [&](double& x) { x = 2 * plan.origin.x() - x; };
   for (Surface& s : image.surfaces) {
     std::swap(s.start, s.end);
@@ -42,8 +41,6 @@ AGraph MirrorImage(const AGraph& plan) {
   for (Column& c : image.columns) {
     for (Eigen::Vector2d& p : c.outline) flip(p.x());
   }
-  for (Eigen::Vector3f& v : image.mesh.vertices) v.x() = -v.x();
-  for (Triangle& t : image.mesh.triangles) std::swap(t.b, t.c);
   return image;
 }
 

@@ -10,7 +10,7 @@
 
 namespace plumb::runtime {
 
-// Across the plane x = AGraph::origin.x(); what matching reads of a plan, no more.
+// Across the plane x = AGraph::origin.x(); what matching reads of a plan but its triangles, no more: PlanIndex shares those.
 [[nodiscard]] AGraph MirrorImage(const AGraph& plan);
 
 // A map at `pose` in the plan and at `mirrored_pose` in its mirror image relates the two by a reflection of the plan. True if that takes

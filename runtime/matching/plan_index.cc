@@ -52,8 +52,21 @@ PlanIndex::PlanIndex(const AGraph& plan)
       num_physical_walls_(static_cast<uint32_t>(plan.walls.size())),
       all_(plan.mesh),
       solid_(plan.mesh, Not(soft_)) {
-  for (size_t i = 0; i < plan.surfaces.size(); ++i) AddFaces(plan.surfaces[i], SurfaceId(i));
-  for (const Column& column : plan.columns) AddFaces(column);
+  AddStructure();
+}
+
+PlanIndex::PlanIndex(const AGraph& image, const PlanIndex& original)
+    : plan_(image),
+      soft_(original.soft_),
+      num_physical_walls_(static_cast<uint32_t>(image.walls.size())),
+      all_(original.all_.Mirrored()),
+      solid_(original.solid_.Mirrored()) {
+  AddStructure();
+}
+
+void PlanIndex::AddStructure() {
+  for (size_t i = 0; i < plan_.surfaces.size(); ++i) AddFaces(plan_.surfaces[i], SurfaceId(i));
+  for (const Column& column : plan_.columns) AddFaces(column);
   AddToGrid();
   AddLevels();
   AddOpenings();

@@ -36,6 +36,8 @@ class PlanIndex {
  public:
   // Keeps a reference to `plan`. O(n log n) in triangles.
   explicit PlanIndex(const AGraph& plan);
+  // Of `image`, the mirror image (mirror.h) of the plan of `original`, whose triangles it shares: those of `image` are not looked at.
+  PlanIndex(const AGraph& image, const PlanIndex& original);
 
   [[nodiscard]] const AGraph& plan() const { return plan_; }
   [[nodiscard]] const std::vector<PlanFace>& faces() const { return faces_; }
@@ -57,6 +59,7 @@ class PlanIndex {
     double reach_m = 0;                              // half the width, and half the wall
     double height_m = 0;
   };
+  void AddStructure();
   void AddFaces(const Surface& surface, SurfaceId id);
   void AddFaces(const Column& column);
   void AddChain(const std::vector<Eigen::Vector2d>& points, PlanFace face);  // free space to the left

@@ -31,13 +31,18 @@ class RayCaster {
   RayCaster(RayCaster&&) noexcept;
   RayCaster& operator=(RayCaster&&) noexcept;
 
+  // The same triangles mirrored in x, at no cost: they are kept once, and rays are turned round instead.
+  [[nodiscard]] RayCaster Mirrored() const;
+
   // First hit of each ray; hits.size() == rays.size().
   void Cast(std::span<const Ray> rays, std::span<RayHit> hits) const;
   [[nodiscard]] RayHit Cast(const Ray& ray) const;
 
  private:
   struct Impl;
-  std::unique_ptr<Impl> impl_;
+  explicit RayCaster(std::shared_ptr<const Impl> impl) : impl_(std::move(impl)) {}
+  std::shared_ptr<const Impl> impl_;
+  bool mirrored_ = false;
 };
 
 }  // namespace plumb::runtime

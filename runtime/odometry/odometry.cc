@@ -27,8 +27,9 @@ constexpr double kSureGap_s = 0.25;             // after longer gaps the robot m
 constexpr size_t kSearchPoints = 800;
 constexpr std::array<double, 7> kSearchYaw_rad = {0, 0.2, -0.2, 0.4, -0.4, 0.6, -0.6};
 constexpr double kMaxPrediction_s = 1.0;        // velocity is not trusted for longer
-// Of a robot or a walking person, one sigma; less up and down and in tilt.
-const Eigen::Vector3d kAcceleration_mps2(3.0, 3.0, 1.0), kTurning_radps2(1.5, 1.5, 6.0);
+// Of a robot or a walking person, one sigma; less in tilt, and hardly any up and down: in a small room a lidar sees neither floor nor ceiling, and
+// what noise in the walls' normals says of the height would soon add up to decimetres.
+const Eigen::Vector3d kAcceleration_mps2(3.0, 3.0, 0.05), kTurning_radps2(1.5, 1.5, 6.0);
 constexpr double kGivenScaleSigma = 0.1;        // a given odometry's relative error
 constexpr double kMaxGivenSpeed_mps = 30.0;     // beyond, the given odometry has jumped
 constexpr double kVerticalDamping = 0.5;        // robots move along the floor: climbing at this rate dies out where no plane measures it
@@ -55,7 +56,7 @@ Eigen::Isometry3d Advanced(const Eigen::Isometry3d& T, const Twist& twist, doubl
 
 double RotationAngle(const Eigen::Isometry3d& T) { return LogSo3(T.linear()).norm(); }
 
-constexpr double kFloor_m = 0.003, kFloor_rad = 0.002;  // least sigma of any prediction: a sweep is not exactly linear in time
+constexpr double kFloor_m = 0.003, kFloorVertical_m = 0.0005, kFloor_rad = 0.002;  // least sigma of any prediction: a sweep is not exactly linear in time
 
 using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
@@ -68,7 +69,8 @@ Matrix6d DiagonalCovariance(const Eigen::Vector3d& rotation_rad, const Eigen::Ve
 // What speeding up or braking adds to a motion over dt_s that is predicted from one over earlier_s.
 Matrix6d CoastingCovariance(double dt_s, double earlier_s) {
   const double product_s2 = std::abs(dt_s) * std::max(std::abs(dt_s), earlier_s);
-  return DiagonalCovariance((kTurning_radps2 * product_s2).array() + kFloor_rad, (kAcceleration_mps2 * product_s2).array() + kFloor_m);
+  return DiagonalCovariance((kTurning_radps2 * product_s2).array() + kFloor_rad,
+                            kAcceleration_mps2 * product_s2 + Eigen::Vector3d(kFloor_m, kFloor_m, kFloorVertical_m));
 }
 
 Matrix6d GivenCovariance(const Eigen::Isometry3d& moved) {

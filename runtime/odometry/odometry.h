@@ -20,7 +20,7 @@ struct OdometryOptions {
   double range_sigma_m = 0.02;      // noise of a single return
   double min_range_m = 0.4, max_range_m = 80.0;
   int max_iterations = 20;
-  int max_voxels = 400000;          // of the map; beyond, the voxels unseen for longest are forgotten (about 1 kB each)
+  int max_voxels = 120000;          // of the map; beyond, the voxels unseen for longest are forgotten (about 1 kB each)
   [[nodiscard]] std::string Check() const;  // empty, or the field, its value and the rule
 };
 

@@ -12,6 +12,7 @@
 
 #include "runtime/odometry/planar/planar_scan.h"
 #include "runtime/optimization/level_votes.h"
+#include "runtime/optimization/odometry_step.h"
 #include "runtime/optimization/wall_measurement.h"
 
 namespace plumb::runtime {
@@ -87,20 +88,17 @@ struct JointProblem::Impl {
 
   void AddKeyframes() {
     ceres::Manifold* const manifold = map.planar ? static_cast<ceres::Manifold*>(&level_pose_manifold) : &pose_manifold;
-    for (auto& pose : state.poses) problem.AddParameterBlock(pose.data(), kPoseSize, manifold);
+    for (size_t i = 0; i < map.keyframes.size(); ++i) {
+      if (!map.keyframes[i].merged) problem.AddParameterBlock(state.poses[i].data(), kPoseSize, manifold);
+    }
     problem.AddResidualBlock(Cost<AnchorResidual, 6, kPoseSize>({Anchor(), kAnchorSigma_m, kAnchorSigma_rad, options.gravity_sigma_rad}), nullptr,
                              state.poses[0].data());
-    if (map.planar) AddEdges();
-    for (size_t i = 1; i < map.keyframes.size() && !map.planar; ++i) {
-      const Keyframe &a = map.keyframes[i - 1], &b = map.keyframes[i];
-      const Eigen::Isometry3d step = a.T_odom_kf.inverse() * b.T_odom_kf;
-      const double length = step.translation().norm(), turn = Eigen::AngleAxisd(step.linear()).angle();
-      const double sigma_m = options.odometry_sigma_m + options.odometry_sigma_m_per_m * length +
-                             options.odometry_sigma_m_per_s * std::abs(b.stamp_s - a.stamp_s);
-      const double sigma_rad =
-          options.odometry_sigma_rad + options.odometry_sigma_rad_per_m * length + options.odometry_sigma_rad_per_rad * std::abs(turn);
-      problem.AddResidualBlock(Cost<OdometryResidual, 6, kPoseSize, kPoseSize>({step, sigma_m, sigma_rad}), &odometry_loss,
-                               state.poses[i - 1].data(), state.poses[i].data());
+    if (map.planar) return AddEdges();
+    for (size_t i = 1, last = 0; i < map.keyframes.size(); ++i) {
+      if (map.keyframes[i].merged) continue;
+      problem.AddResidualBlock(Cost<OdometryResidual, 6, kPoseSize, kPoseSize>(OdometryStep(map.keyframes[last], map.keyframes[i], options)), &odometry_loss,
+                               state.poses[last].data(), state.poses[i].data());
+      last = i;
     }
   }
 

@@ -1,13 +1,14 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <numbers>
 #include <set>
 #include <unordered_set>
 
-#include "runtime/localizer/localizer.h"
+#include "runtime/localizer/replay.h"
 #include "runtime/mapping/sgraph_json.h"
 #include "schema/agraph_reader.h"
 #include "schema/files.h"
@@ -26,10 +27,10 @@ namespace fs = std::filesystem;
 struct LocalizeFlags {
   std::string plan, recording, output;
   bool no_odometry = false;
-  double start_s = 0, max_duration_s = 0;
   double tolerance_deg = 0.5;
   double map_voxel_m = 0.02;
   runtime::LocalizerOptions options;
+  runtime::ReplayOptions replay;
 };
 
 // What the scans gave, in the order of the scans.
@@ -37,43 +38,107 @@ struct Results {
   runtime::Trajectory online;
   std::vector<VerdictRow> verdicts;
   std::vector<TimingRow> timing;
-  size_t unreadable_scans = 0, untimed_scans = 0;
+  size_t unreadable_scans = 0, untimed_scans = 0, unordered_scans = 0;
   bool interrupted = false;
+  std::optional<Pace> pace;  // with --rate
 };
 
-Expected<Results> AddScans(const runtime::Recording& recording, const LocalizeFlags& flags, runtime::Localizer& localizer, Console& console) {
-  Results results;
-  Error last_error{ErrorCode::kBadScan, fmt::format("`{}` has no scan after {} s", flags.recording, flags.start_s)};
-  const InterruptGuard interrupt;
-  for (size_t i = 0; i < recording.size(); ++i) {
-    const double time_s = recording.stamp_s(i) - recording.stamp_s(0);
-    if (time_s < flags.start_s) continue;
-    if (flags.max_duration_s > 0 && time_s - flags.start_s > flags.max_duration_s) break;
-    if (interrupt.requested()) {
-      results.interrupted = true;
-      break;
+// Takes in what a replay gives, scan by scan.
+class Collector {
+ public:
+  Collector(size_t num_scans, bool paced, Console& console) : num_scans_(num_scans), paced_(paced), console_(console) {}
+
+  // False once the user has had enough.
+  bool Add(const runtime::ReplayedScan& scan) {
+    if (interrupt_.requested()) {
+      results_.interrupted = true;
+      return false;
     }
-    const auto scan = recording.Read(i);
-    if (!scan) {  // one bad file is no reason to lose hours of good ones
-      console.Error(scan.error().message + "; skipped");
-      last_error = scan.error();
-      ++results.unreadable_scans;
-      continue;
+    if (scan.unreadable) {  // one bad file is no reason to lose hours of good ones
+      console_.Error(scan.unreadable->message + "; skipped");
+      last_error_ = *scan.unreadable;
+      ++results_.unreadable_scans;
+      return true;
     }
-    std::optional<runtime::Odometry::GivenMotion> given;
-    if (!flags.no_odometry) given = runtime::GivenMotionDuring(*scan, recording.odometry());
-    const runtime::ScanVerdict verdict = localizer.AddScan(*scan, given);
-    if (!verdict.timed && !scan->points.empty() && results.untimed_scans++ == 0) {
-      console.Info(fmt::format("scans without {}per-point time: deskew off", scan->time_s.empty() ? "" : "usable "));
+    const runtime::ScanVerdict& verdict = scan.verdict;
+    if (!verdict.in_order) {
+      if (results_.unordered_scans++ == 0) {
+        console_.Info(fmt::format("the scan at {:.9f} s does not come after the one before it: left out, as all others of that kind", verdict.stamp_s));
+      }
+      return true;
     }
-    results.verdicts.push_back({verdict.stamp_s, runtime::VerdictName(verdict.verdict), verdict.hypotheses});
-    if (verdict.T_plan_lidar) results.online.push_back({verdict.stamp_s, *verdict.T_plan_lidar});
-    for (const runtime::StageTime& stage : verdict.timing) results.timing.push_back({verdict.stamp_s, stage.stage, stage.ms});
-    console.Progress("localizing", i + 1, recording.size());
+    if (!verdict.timed && scan.has_points && results_.untimed_scans++ == 0) {
+      console_.Info(fmt::format("scans without {}per-point time: deskew off", scan.has_times ? "usable " : ""));
+    }
+    results_.verdicts.push_back({verdict.stamp_s, runtime::VerdictName(verdict.verdict), verdict.hypotheses});
+    if (verdict.T_plan_lidar) results_.online.push_back({verdict.stamp_s, *verdict.T_plan_lidar});
+    for (const runtime::StageTime& stage : verdict.timing) results_.timing.push_back({verdict.stamp_s, stage.stage, stage.ms});
+    if (paced_) results_.timing.push_back({verdict.stamp_s, "latency", scan.latency_ms});
+    if (paced_) latencies_ms_.push_back(scan.latency_ms);
+    console_.Progress("localizing", scan.index + 1, num_scans_);
+    return true;
   }
-  if (results.verdicts.empty()) return tl::unexpected(last_error);
-  return results;
-}
+
+  Expected<Results> Take() {
+    if (results_.verdicts.empty()) return tl::unexpected(last_error_);
+    if (paced_) results_.pace = PaceOf(latencies_ms_);
+    return std::move(results_);
+  }
+
+ private:
+  size_t num_scans_;
+  bool paced_;
+  Console& console_;
+  const InterruptGuard interrupt_;
+  Error last_error_{ErrorCode::kBadScan, "no scan"};
+  std::vector<double> latencies_ms_;
+  Results results_;
+};
+
+// The localizer with what a recording taught it, and what it said on the way. One of the two runs; `localizer()` has the results.
+class Replayer {
+ public:
+  Replayer(const AGraph& plan, const LocalizeFlags& flags) : flags_(flags) {
+    if (flags.replay.rate > 0) {
+      online_.emplace(plan, flags.options, flags.replay.online);
+    } else {
+      offline_.emplace(plan, flags.options);
+    }
+  }
+
+  Expected<Results> Run(const runtime::Recording& recording, Console& console) {
+    Collector collector(recording.size(), online_.has_value(), console);
+    const auto sink = [&](const runtime::ReplayedScan& scan) { return collector.Add(scan); };
+    if (offline_) {
+      runtime::ReplayOffline(recording, flags_.replay, *offline_, sink);
+    } else {
+      runtime::ReplayPaced(recording, flags_.replay, *online_, sink);
+      drained_ = &online_->Drain();
+    }
+    Expected<Results> results = collector.Take();
+    if (results && online_) AddGraphSide(*results);
+    return results;
+  }
+
+  runtime::Localizer& localizer() { return offline_ ? *offline_ : *drained_; }
+
+ private:
+  void AddGraphSide(Results& results) {
+    for (runtime::OnlineLocalizer::StampedTime& t : online_->TakeGraphTimes()) {
+      results.timing.push_back({t.stamp_s, std::move(t.time.stage), t.time.ms});
+    }
+    std::stable_sort(results.timing.begin(), results.timing.end(), [](const TimingRow& a, const TimingRow& b) { return a.stamp_s < b.stamp_s; });
+    const runtime::OnlineCounts counts = online_->counts();
+    results.pace->rate = flags_.replay.rate;
+    results.pace->held_solves = counts.held_solves;
+    results.pace->unmapped_scans = counts.unmapped_scans;
+  }
+
+  const LocalizeFlags& flags_;
+  std::optional<runtime::Localizer> offline_;
+  std::optional<runtime::OnlineLocalizer> online_;
+  runtime::Localizer* drained_ = nullptr;
+};
 
 struct Voxel {
   int64_t x = 0, y = 0, z = 0;
@@ -125,6 +190,7 @@ RunInfo Describe(const LocalizeFlags& flags, const CLI::App& sub, const AGraph& 
   info.scans = results.verdicts.size();
   info.unreadable_scans = results.unreadable_scans;
   info.untimed_scans = results.untimed_scans;
+  info.unordered_scans = results.unordered_scans;
   info.interrupted = results.interrupted;
   for (const VerdictRow& v : results.verdicts) {
     if (v.verdict != "localized") continue;
@@ -133,11 +199,13 @@ RunInfo Describe(const LocalizeFlags& flags, const CLI::App& sub, const AGraph& 
   }
   if (!results.verdicts.empty()) info.duration_s = results.verdicts.back().stamp_s - results.verdicts.front().stamp_s;
   info.planar = localizer.map().planar;
-  info.keyframes = localizer.map().keyframes.size();
+  info.keyframes = static_cast<size_t>(std::count_if(localizer.map().keyframes.begin(), localizer.map().keyframes.end(),
+                                                     [](const runtime::Keyframe& keyframe) { return !keyframe.merged; }));
   info.deviated_walls = CountDeviatedWalls(plan, report);
   info.range_bias_m = localizer.estimate().range_bias_m;
+  info.pace = results.pace;
   double total_ms = 0;
-  for (const TimingRow& t : results.timing) total_ms += t.ms;
+  for (const TimingRow& t : results.timing) total_ms += t.stage == "latency" ? 0 : t.ms;
   if (info.scans > 0) info.ms_per_scan = total_ms / static_cast<double>(info.scans);
   if (info.localized_scans == 0) {
     info.last_reason = localizer.map().keyframes.empty() ? "too little was seen to begin a map" : localizer.last_match().reason;
@@ -176,7 +244,10 @@ Expected<void> PrepareOutput(const std::string& folder) {
 
 Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
   flags.options.deviations.min_yaw_rad = flags.tolerance_deg * std::numbers::pi / 180;
-  if (const std::string wrong = flags.options.Check(); !wrong.empty()) return session.Fail({ErrorCode::kBadOption, wrong});
+  flags.replay.given_odometry = !flags.no_odometry;
+  for (const std::string& wrong : {flags.options.Check(), flags.replay.Check()}) {
+    if (!wrong.empty()) return session.Fail({ErrorCode::kBadOption, wrong});
+  }
   if (!(flags.map_voxel_m > 0)) return session.Fail({ErrorCode::kBadOption, fmt::format("--map-voxel {}; must be positive", flags.map_voxel_m)});
   const auto plan = ReadAGraphFile(flags.plan);
   if (!plan) return session.Fail(plan.error());
@@ -184,9 +255,10 @@ Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
   if (!recording) return session.Fail(recording.error());
   if (const auto ready = PrepareOutput(flags.output); !ready) return session.Fail(ready.error());
 
-  runtime::Localizer localizer(*plan, flags.options);
-  const auto results = AddScans(*recording, flags, localizer, session.console);
+  Replayer replayer(*plan, flags);
+  const auto results = replayer.Run(*recording, session.console);
   if (!results) return session.Fail(results.error());
+  runtime::Localizer& localizer = replayer.localizer();
   localizer.Finish();
   const runtime::DeviationReport report = localizer.Deviations();
   const RunInfo info = Describe(flags, sub, *plan, *results, localizer, report);
@@ -199,6 +271,10 @@ Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
   }
   session.console.Info(fmt::format("{}: localized after {:.1f} s, {} of {} scans; {} walls deviate; {:.0f} ms per scan", flags.output,
                                    *info.time_to_localize_s, info.localized_scans, info.scans, info.deviated_walls, info.ms_per_scan));
+  if (info.pace) {
+    session.console.Info(fmt::format("{}: poses {:.0f} ms after their scan (99 %: {:.0f} ms); {} keyframes solved later, {} scans not mapped", flags.output,
+                                     info.pace->latency_p50_ms, info.pace->latency_p99_ms, info.pace->held_solves, info.pace->unmapped_scans));
+  }
   if (!localizer.T_plan_map()) {
     session.console.Error(fmt::format("{}: lost at the end of the recording: what was seen since then has no place in the plan", flags.output));
     return Status::kFindings;
@@ -213,13 +289,17 @@ void AddLocalize(CLI::App& app, Session& session) {
   runtime::LocalizerOptions& o = flags->options;
   CLI::App* sub = AddSubcommand(app, session, kLocalizeName, kLocalizeSummary,
                                 "  plumb localize house.agraph rec/ -o run/\n"
-                                "  plumb localize house.agraph rec/ -o run/ --no-odometry --tolerance 0.03");
+                                "  plumb localize house.agraph rec/ -o run/ --no-odometry --tolerance 0.03\n"
+                                "  plumb localize house.agraph rec/ -o run/ --rate 1");
   sub->add_option("FILE.agraph", flags->plan, "the plan")->required();
   sub->add_option("REC", flags->recording, "recording folder: scans/*.pcd and, where there is one, odometry.tum")->required();
   sub->add_option("-o,--output", flags->output, "the run folder to write")->required()->type_name("RUN");
   sub->add_flag("--no-odometry", flags->no_odometry, "do without the recording's odometry.tum");
-  sub->add_option("--start", flags->start_s, "leave out this much of the recording at its beginning, s");
-  sub->add_option("--max-duration", flags->max_duration_s, "stop after this much of the rest; 0: all of it, s");
+  sub->add_option("--start", flags->replay.start_s, "leave out this much of the recording at its beginning, s");
+  sub->add_option("--max-duration", flags->replay.max_duration_s, "stop after this much of the rest; 0: all of it, s");
+  sub->add_option("--threads", flags->replay.threads, "threads to work with; 0: all the machine has. The results are the same for any number");
+  sub->add_option("--rate", flags->replay.rate,
+                  "give scans at this multiple of the pace they were recorded at, as on a robot, and report latencies; 0: as fast as it goes, reproducibly");
   sub->add_option("--tolerance", o.deviations.min_offset_m, "walls displaced by less are as planned, m");
   sub->add_option("--tolerance-angle", flags->tolerance_deg, "walls turned by less are as planned, deg");
   sub->add_option("--false-discovery-rate", o.deviations.false_discovery_rate, "share of wrong ones among the walls reported");

@@ -90,6 +90,7 @@ void AddSimulate(CLI::App& app, Session& session) {
   sub->add_option("--translation", flags->translation, "least and largest displacement of such a wall, m")->type_name("LEAST:MOST");
   sub->add_option("--rotation", flags->rotation_deg, "least and largest turn of such a wall, deg")->type_name("LEAST:MOST");
   sub->add_option("--sensor", o.sensor, "one of " + sensors);
+  sub->add_option("--noise", o.noise_m, "sigma of a measured range, m; 0: the sensor's own");
   sub->add_option("--storey", o.storey, "storey to drive on, counted from 0; -1: the one with most rooms");
   sub->add_option("--speed", o.speed_m_s, "of the robot, m/s");
   sub->add_option("--sensor-height", o.sensor_height_m, "above the floor, m");

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
@@ -10,6 +11,16 @@
 namespace plumb::tools {
 
 using Json = nlohmann::ordered_json;
+
+Pace PaceOf(std::vector<double> latencies_ms) {
+  Pace pace;
+  if (latencies_ms.empty()) return pace;
+  std::sort(latencies_ms.begin(), latencies_ms.end());
+  const auto percentile = [&](size_t percent) { return latencies_ms[(latencies_ms.size() - 1) * percent / 100]; };
+  pace.latency_p50_ms = percentile(50);
+  pace.latency_p99_ms = percentile(99);
+  return pace;
+}
 
 std::string RunInfoToJson(const RunInfo& info) {
   Json out;
@@ -25,6 +36,7 @@ std::string RunInfoToJson(const RunInfo& info) {
   summary["unreadable_scans"] = info.unreadable_scans;
   summary["untimed_scans"] = info.untimed_scans;
   summary["planar"] = info.planar;
+  summary["unordered_scans"] = info.unordered_scans;
   summary["interrupted"] = info.interrupted;
   summary["time_to_localize_s"] = info.time_to_localize_s ? Json(*info.time_to_localize_s) : Json(nullptr);
   summary["duration_s"] = info.duration_s;
@@ -32,6 +44,10 @@ std::string RunInfoToJson(const RunInfo& info) {
   summary["deviated_walls"] = info.deviated_walls;
   summary["range_bias_m"] = info.range_bias_m;
   summary["ms_per_scan"] = info.ms_per_scan;
+  if (info.pace) {
+    summary["pace"] = {{"rate", info.pace->rate}, {"latency_p50_ms", info.pace->latency_p50_ms}, {"latency_p99_ms", info.pace->latency_p99_ms},
+                       {"held_solves", info.pace->held_solves}, {"unmapped_scans", info.pace->unmapped_scans}};
+  }
   summary["last_reason"] = info.last_reason;
   out["summary"] = std::move(summary);
   return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -55,6 +71,7 @@ Expected<RunInfo> ParseRunInfo(const std::string& json, const std::string& sourc
     info.unreadable_scans = summary.value("unreadable_scans", size_t{0});
     info.untimed_scans = summary.value("untimed_scans", size_t{0});
     info.planar = summary.value("planar", false);
+    info.unordered_scans = summary.value("unordered_scans", size_t{0});
     info.interrupted = summary.value("interrupted", false);
     if (!summary.at("time_to_localize_s").is_null()) info.time_to_localize_s = summary.at("time_to_localize_s").get<double>();
     summary.at("duration_s").get_to(info.duration_s);
@@ -62,6 +79,10 @@ Expected<RunInfo> ParseRunInfo(const std::string& json, const std::string& sourc
     summary.at("deviated_walls").get_to(info.deviated_walls);
     summary.at("range_bias_m").get_to(info.range_bias_m);
     summary.at("ms_per_scan").get_to(info.ms_per_scan);
+    if (const auto pace = summary.find("pace"); pace != summary.end()) {
+      info.pace = Pace{pace->at("rate").get<double>(), pace->at("latency_p50_ms").get<double>(), pace->at("latency_p99_ms").get<double>(),
+                       pace->at("held_solves").get<size_t>(), pace->at("unmapped_scans").get<size_t>()};
+    }
     summary.at("last_reason").get_to(info.last_reason);
     return info;
   } catch (const Json::exception& e) {

@@ -62,7 +62,7 @@ class Recorder {
  public:
   Recorder(const AGraph& plan, const AsBuilt& built, const Drive& drive, const SensorModel& sensor, const SimulateOptions& options)
       : plan_(plan), counter_(plan, built), drive_(drive), lidar_(built.house, sensor, options.glass_transmission), options_(options),
-        surface_points_(plan.surfaces.size(), 0) {}
+        surface_points_(plan.surfaces.size(), 0), surface_scans_(plan.surfaces.size(), 0) {}
 
   Expected<void> Run(const fs::path& folder, size_t scans, const SimulateProgress& progress) {
     tbb::parallel_for(size_t{0}, scans, [&](size_t i) { RecordOne(folder, i, scans, progress); });
@@ -70,8 +70,11 @@ class Recorder {
     return {};
   }
 
-  [[nodiscard]] const std::vector<uint64_t>& surface_points() const { return surface_points_; }
-  [[nodiscard]] size_t points() const { return points_; }
+  void Report(SimulateSummary& summary) const {
+    summary.points = points_;
+    summary.surface_points = surface_points_;
+    summary.surface_scans = surface_scans_;
+  }
 
  private:
   void RecordOne(const fs::path& folder, size_t i, size_t scans, const SimulateProgress& progress) {
@@ -86,7 +89,10 @@ class Recorder {
     const Expected<void> written = runtime::WritePcd(sweep.scan, (folder / "scans" / runtime::ScanFileName(stamp_s)).string());
     const std::lock_guard lock(mutex_);
     if (!written && !error_) error_ = written.error();
-    for (size_t s = 0; s < seen.size(); ++s) surface_points_[s] += seen[s];
+    for (size_t s = 0; s < seen.size(); ++s) {
+      surface_points_[s] += seen[s];
+      surface_scans_[s] += seen[s] >= kMinScanPoints ? 1 : 0;
+    }
     points_ += sweep.scan.points.size();
     if (progress) progress(++done_, scans);
   }
@@ -99,6 +105,7 @@ class Recorder {
   std::mutex mutex_;  // guards all below
   std::optional<Error> error_;
   std::vector<uint64_t> surface_points_;
+  std::vector<uint32_t> surface_scans_;
   size_t points_ = 0, done_ = 0;
 };
 
@@ -139,6 +146,7 @@ std::string SimulateOptions::Check() const {
     return bad("max_rotation_rad", max_rotation_rad, "from min_rotation_rad to 0.5");
   }
   if (!FindSensor(sensor)) return bad("sensor", sensor, fmt::format("one of {}", fmt::join(SensorNames(), ", ")).c_str());
+  if (!(noise_m >= 0 && noise_m <= 0.5)) return bad("noise_m", noise_m, "from 0 to 0.5");
   if (!(speed_m_s >= 0.05 && speed_m_s <= 3)) return bad("speed_m_s", speed_m_s, "from 0.05 to 3");
   if (!(sensor_height_m >= 0.1 && sensor_height_m <= 3)) return bad("sensor_height_m", sensor_height_m, "from 0.1 to 3");
   if (!(min_duration_s >= 0 && min_duration_s <= 36000)) return bad("min_duration_s", min_duration_s, "from 0 to 36000");
@@ -173,19 +181,20 @@ Expected<SimulateSummary> Simulate(const AGraph& plan, const SimulateOptions& op
   summary.path_m = tour->path_m;
   summary.robot_radius_m = reach.robot_radius_m;
 
-  const SensorModel sensor = *FindSensor(options.sensor);
+  SensorModel sensor = *FindSensor(options.sensor);
+  if (options.noise_m > 0) sensor.noise_m = options.noise_m;
   const fs::path folder(out_folder);
   summary.scans = static_cast<size_t>(std::floor(tour->drive.duration_s() * sensor.rate_hz));
   summary.duration_s = static_cast<double>(summary.scans) * sensor.period_s();
   if (const Expected<void> ready = PrepareFolder(folder); !ready) return tl::unexpected(ready.error());
   Recorder recorder(plan, *built, tour->drive, sensor, options);
   if (const Expected<void> run = recorder.Run(folder, summary.scans, progress); !run) return tl::unexpected(run.error());
-  summary.points = recorder.points();
+  recorder.Report(summary);
 
   const std::pair<const char*, std::string> files[] = {
       {"odometry.tum", runtime::WriteTum(SimulateOdometry(tour->drive, options))},
       {"truth.tum", runtime::WriteTum(TruthAtScans(tour->drive, sensor, options, summary.scans))},
-      {"truth.json", TruthToJson(plan, options, summary, recorder.surface_points())}};
+      {"truth.json", TruthToJson(plan, options, summary)}};
   for (const auto& [name, text] : files) {
     const Expected<void> written = WriteFileAtomically((folder / name).string(), text);
     if (!written) return tl::unexpected(written.error());

@@ -20,6 +20,7 @@ struct SimulateOptions {
   double min_translation_m = 0.05, max_translation_m = 0.35;  // along the wall's normal, either way
   double min_rotation_rad = 0, max_rotation_rad = 0.0873;     // yaw about the middle of the wall's longest room surface, either way
   std::string sensor = "vlp16";                               // see sensor.h
+  double noise_m = 0;                                         // sigma of a range; 0: the sensor's own
   int storey = -1;                                            // index of the storey to drive on; -1: the one with most rooms
   double speed_m_s = 0.5;
   double sensor_height_m = 0.6;                               // above the floor
@@ -62,9 +63,13 @@ struct SimulateSummary {
   double robot_radius_m = 0;                  // of the robot that fits through every doorway it has to
   RoomId start_room;
   std::vector<RoomId> visited, not_visited;   // rooms of the storey
+  std::vector<uint64_t> surface_points;       // per plan surface: returns from it,
+  std::vector<uint32_t> surface_scans;        // and scans with at least kMinScanPoints of them
   std::vector<WallDisplacement> walls;
   int boxes = 0;                              // clutter that found a place
 };
+
+inline constexpr uint32_t kMinScanPoints = 20;
 
 // Called from one thread at a time with the sweeps done so far and in all.
 using SimulateProgress = std::function<void(size_t done, size_t total)>;

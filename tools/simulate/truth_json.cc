@@ -35,6 +35,7 @@ Json ToJson(const SimulateOptions& o) {
           {"translation_m", {o.min_translation_m, o.max_translation_m}},
           {"rotation_deg", {Degrees(o.min_rotation_rad), Degrees(o.max_rotation_rad)}},
           {"sensor", o.sensor},
+          {"noise_m", o.noise_m},
           {"storey", o.storey},
           {"speed_m_s", o.speed_m_s},
           {"sensor_height_m", o.sensor_height_m},
@@ -59,8 +60,7 @@ Json Rooms(const AGraph& plan, const std::vector<RoomId>& rooms) {
 
 }  // namespace
 
-std::string TruthToJson(const AGraph& plan, const SimulateOptions& options, const SimulateSummary& summary,
-                        const std::vector<uint64_t>& surface_points) {
+std::string TruthToJson(const AGraph& plan, const SimulateOptions& options, const SimulateSummary& summary) {
   Json json = {{"version", 1},
                {"plan", {{"source", plan.source_path}, {"sha256", plan.source_sha256}}},
                {"seed", options.seed},
@@ -68,7 +68,7 @@ std::string TruthToJson(const AGraph& plan, const SimulateOptions& options, cons
                {"walls", Json::array()},
                {"surface_points", Json::object()}};
   for (const WallDisplacement& w : summary.walls) json["walls"].push_back(ToJson(plan, w));
-  for (size_t i = 0; i < surface_points.size(); ++i) json["surface_points"][std::to_string(i)] = surface_points[i];
+  for (size_t i = 0; i < summary.surface_points.size(); ++i) json["surface_points"][std::to_string(i)] = summary.surface_points[i];
   json["drive"] = {{"duration_s", Rounded(summary.duration_s)},
                    {"path_m", Rounded(summary.path_m)},
                    {"robot_radius_m", summary.robot_radius_m},

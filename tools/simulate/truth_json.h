@@ -8,8 +8,6 @@
 
 namespace plumb::tools {
 
-// `surface_points`: returns from each plan surface.
-[[nodiscard]] std::string TruthToJson(const AGraph& plan, const SimulateOptions& options, const SimulateSummary& summary,
-                                      const std::vector<uint64_t>& surface_points);
+[[nodiscard]] std::string TruthToJson(const AGraph& plan, const SimulateOptions& options, const SimulateSummary& summary);
 
 }  // namespace plumb::tools

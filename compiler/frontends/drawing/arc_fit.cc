@@ -13,7 +13,8 @@ namespace {
 constexpr double kMinShare = 0.25;  // of a closed line's length that arcs must have to be told
 constexpr double kAllCurved = 0.9;  // ... to be all of it
 constexpr double kMinSweep_rad = 0.3;
-constexpr size_t kFine = 12;  // points
+constexpr double kTurnsBack_rad = 2.8;
+constexpr size_t kFine = 12;  // steps
 
 double TurnAt(std::span<const Eigen::Vector2d> p, size_t i) {
   const Eigen::Vector2d a = p[i] - p[i - 1], b = p[i + 1] - p[i];
@@ -69,20 +70,31 @@ void AddPart(const DrawnPath& path, size_t first, size_t last, const Arc* arc, s
   out.push_back(std::move(part));
 }
 
-}  // namespace
-
-std::vector<ArcRun> FindArcRuns(std::span<const Eigen::Vector2d> points, const ArcFitOptions& options) {
-  std::vector<ArcRun> out;
+// Between two points of the line.
+void AddRunsBetween(std::span<const Eigen::Vector2d> points, size_t begin, size_t end, const ArcFitOptions& options, std::vector<ArcRun>& out) {
   // Coordinates of few digits make the steps of a fine line turn to and fro: all of it may be an arc all the same.
-  if (points.size() > kFine) {
-    if (const auto arc = FitArc(points, options.max_off_share)) return {{0, points.size() - 1, *arc}};
+  if (end - begin >= kFine) {
+    if (const auto arc = FitArc(points.subspan(begin, end - begin + 1), options.max_off_share)) return out.push_back({begin, end, *arc});
   }
-  for (size_t first = 0; first + options.min_steps < points.size();) {
-    const size_t last = EndOfRun(points, first, options);
+  for (size_t first = begin; first + options.min_steps <= end;) {
+    const size_t last = std::min(end, EndOfRun(points, first, options));
     if (last - first >= options.min_steps) {
       if (const auto arc = FitArc(points.subspan(first, last - first + 1), options.max_off_share)) out.push_back({first, last, *arc});
     }
     first = last;
+  }
+}
+
+}  // namespace
+
+std::vector<ArcRun> FindArcRuns(std::span<const Eigen::Vector2d> points, const ArcFitOptions& options) {
+  std::vector<ArcRun> out;
+  for (size_t begin = 0; begin + 1 < points.size();) {
+    // Up to where the line turns back: the swings of two leaves are often one line.
+    size_t end = begin + 1;
+    while (end + 1 < points.size() && std::abs(TurnAt(points, end)) < kTurnsBack_rad) ++end;
+    AddRunsBetween(points, begin, end, options, out);
+    begin = end;
   }
   return out;
 }

@@ -27,6 +27,7 @@ struct DrawnPath {
   std::vector<Eigen::Vector2d> points;
   bool closed = false;            // the last point leads back to the first, which is not repeated
   bool filled = false;            // a hatch or a solid fill: its inside is material
+  bool outlines_room = false;     // the side of a room as well as of the walls around it, also across doorways
   bool curved = false;            // the points are steps along a curve, not corners
   std::vector<Arc> arcs;          // the exact arcs among its sides
   double stroke_m = 0;            // how thick the line is drawn; 0: no more than it must be to be seen

@@ -92,8 +92,13 @@ class EvidenceOfGap {
     const double from_jamb_m = std::min(std::abs(std::abs(a.x()) - half_m), std::abs(std::abs(b.x()) - half_m));
     if (!path.curved && !along && IsLeafOf((b - a).norm() / width_m_) && from_jamb_m < options_.symbol_slack_m)
       out_.leaf = std::min(out_.leaf, p);
-    const bool swing = std::any_of(path.arcs.begin(), path.arcs.end(),
-                                   [&](const Arc& arc) { return IsSwing(arc, options_) && IsLeafOf(arc.radius_m / width_m_); });
+    // The greater leaf of two that are not alike has its hinge at the jamb, too.
+    const bool swing = std::any_of(path.arcs.begin(), path.arcs.end(), [&](const Arc& arc) {
+      const Vector2d hinge(u_.dot(arc.center - middle_), Cross(u_, arc.center - middle_));
+      const double share = arc.radius_m / width_m_;
+      const bool at_jamb = std::abs(std::abs(hinge.x()) - half_m) < options_.symbol_slack_m && std::abs(hinge.y()) < half_.y();
+      return IsSwing(arc, options_) && (IsLeafOf(share) || (at_jamb && share > 0.5 && share < 1));
+    });
     if (swing) out_.swing = std::min(out_.swing, p);
   }
 

@@ -19,6 +19,8 @@ constexpr double kOff_m = 1e-4;
 constexpr double kAgainst = 0.96;    // cosine between sides that face each other
 constexpr double kSkewEnds = 0.87;   // ... between ends of walls: the two lines of a wall often end askew
 constexpr double kMinEnd_m = 0.03;   // narrower ends are no walls
+constexpr double kBeyond_m = 0.15;   // from the faces of a wall into the rooms beside it
+constexpr double kLeavesMeet_m = 0.1;
 constexpr double kSillShare = 0.85;  // a window's line runs from jamb to jamb
 
 // A gap between two sides of walls, as a rectangle: `from` to `to` and half the depth to both sides.
@@ -61,7 +63,12 @@ class OpeningPlaces {
 class OpeningFinder {
  public:
   OpeningFinder(const Drawing& drawing, const std::vector<uint32_t>& paths, const Outline& outline, const OpeningOptions& options)
-      : drawing_(drawing), paths_(paths), outline_(outline), options_(options), symbols_(drawing, paths, options) {}
+      : drawing_(drawing), paths_(paths), outline_(outline), options_(options), symbols_(drawing, paths, options) {
+    std::vector<Eigen::AlignedBox2d> boxes;
+    for (const DrawnSpace& space : drawing.spaces) boxes.push_back(BoxOf(space.outline));
+    rooms_ = BoxTree<2>(std::move(boxes));
+    CollectLeaves();
+  }
 
   std::vector<DrawnOpening> Run() {
     AddGaps();
@@ -69,12 +76,16 @@ class OpeningFinder {
       if (!symbols_.IsUsed(p)) AddFromSymbol(p);
     }
     for (DrawnOpening& framed : FindFramedDoors(drawing_, outline_.mass())) {
-      if (!IsKnown(framed)) Keep(std::move(framed));
+      if (!IsKnown(framed) && !IsWithinARoom(framed)) Keep(std::move(framed));
     }
     return std::move(out_);
   }
 
  private:
+  struct Leaf {
+    Eigen::Vector2d hinge, tip;
+  };
+
   // Across the gap in front of an end of a wall.
   std::optional<Gap> GapBefore(uint32_t end) const {
     const Side& s = outline_.sides()[end];
@@ -115,10 +126,10 @@ class OpeningFinder {
       Keep(gap.opening);
     };
     for (Gap& gap : gaps) {
-      if (!IsKnown(gap.opening) && Judge(gap)) take(gap);
+      if (!IsKnown(gap.opening) && !IsWithinARoom(gap.opening) && Judge(gap)) take(gap);
     }
     for (Gap& gap : gaps) {
-      if (!IsKnown(gap.opening) && IsPassage(gap)) take(gap);
+      if (!IsKnown(gap.opening) && !IsWithinARoom(gap.opening) && IsPassage(gap)) take(gap);
     }
   }
 
@@ -180,14 +191,59 @@ class OpeningFinder {
     return true;
   }
 
-  // Where a closed leaf may stand: along both ends of a swing, or along a line.
-  std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> ClosedLeaves(const DrawnPath& path) const {
-    std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> out;
-    for (const Arc& arc : path.arcs) {
+  // On both of its sides is one room that the drawing outlines: a gap in what stands in the room, as toilet stalls and stairs.
+  bool IsWithinARoom(const DrawnOpening& o) const {
+    const Eigen::Vector2d across = (0.5 * o.depth_m + kBeyond_m) * Perp(o.along());
+    bool within = false;
+    rooms_.ForEachIn(Eigen::AlignedBox2d(o.middle()), [&](uint32_t r) {
+      const auto& outline = drawing_.spaces[r].outline;
+      within = within || (Contains(outline, o.middle() + across) && Contains(outline, o.middle()) && Contains(outline, o.middle() - across));
+    });
+    return within;
+  }
+
+  // Where a closed leaf may stand: from the hinge to an end of its swing.
+  std::vector<Leaf> LeavesOfSwings(uint32_t p) const {
+    std::vector<Leaf> out;
+    for (const Arc& arc : drawing_.paths[p].arcs) {
       if (!IsSwing(arc, options_)) continue;
       for (const double at : {arc.start_rad, arc.start_rad + arc.sweep_rad})
-        out.emplace_back(arc.center, arc.center + arc.radius_m * Eigen::Vector2d(std::cos(at), std::sin(at)));
+        out.push_back({arc.center, arc.center + arc.radius_m * Eigen::Vector2d(std::cos(at), std::sin(at))});
     }
+    return out;
+  }
+
+  void CollectLeaves() {
+    std::vector<Eigen::AlignedBox2d> tips;
+    for (const uint32_t p : paths_) {
+      for (const Leaf& leaf : LeavesOfSwings(p)) {
+        leaves_.push_back(leaf);
+        tips.emplace_back(leaf.tip);
+      }
+    }
+    tips_ = BoxTree<2>(std::move(tips));
+  }
+
+  // The hinge of the other of two leaves that meet when closed; none: this one closes its door alone.
+  std::optional<Eigen::Vector2d> HingeOfMate(const Leaf& leaf) const {
+    const Eigen::Vector2d reach = Eigen::Vector2d::Constant(kLeavesMeet_m);
+    uint32_t mate = kNone;
+    tips_.ForEachIn({leaf.tip - reach, leaf.tip + reach}, [&](uint32_t i) {
+      const Eigen::Vector2d d = leaves_[i].tip - leaves_[i].hinge;
+      if (i < mate && d.normalized().dot((leaf.tip - leaf.hinge).normalized()) < -kAgainst) mate = i;
+    });
+    return mate == kNone ? std::nullopt : std::optional(leaves_[mate].hinge);
+  }
+
+  // Those of a swing, two of a pair as one, or along a line.
+  std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> ClosedLeaves(uint32_t p) const {
+    const DrawnPath& path = drawing_.paths[p];
+    std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> out;
+    const std::vector<Leaf> leaves = LeavesOfSwings(p);
+    for (const Leaf& leaf : leaves) {
+      if (const auto other = HingeOfMate(leaf)) out.emplace_back(leaf.hinge, *other);
+    }
+    for (const Leaf& leaf : leaves) out.emplace_back(leaf.hinge, leaf.tip);
     if (path.arcs.empty() && !path.closed && path.points.size() == 2 && path.role == LineRole::kDoor)
       out.emplace_back(path.points[0], path.points[1]);
     return out;
@@ -195,7 +251,7 @@ class OpeningFinder {
 
   void AddFromSymbol(uint32_t p) {
     const DrawnPath& path = drawing_.paths[p];
-    for (const auto& [a, b] : ClosedLeaves(path)) {
+    for (const auto& [a, b] : ClosedLeaves(p)) {
       const double width = (b - a).norm();
       if (width < options_.min_width_m || width > options_.max_door_gap_m) continue;
       const double near = options_.symbol_slack_m;
@@ -206,7 +262,7 @@ class OpeningFinder {
       o->use = DrawnUse::kDoor;
       o->path = p;
       o->location = path.location;
-      if (IsKnown(*o)) continue;
+      if (IsKnown(*o) || IsWithinARoom(*o)) continue;
       symbols_.Use(p);
       Keep(std::move(*o));
       return;
@@ -296,6 +352,9 @@ class OpeningFinder {
   std::set<uint32_t> jambs_;  // sides at the ends of openings
   std::vector<DrawnOpening> out_;
   OpeningPlaces places_;  // of out_
+  std::vector<Leaf> leaves_;
+  BoxTree<2> tips_;       // of leaves_
+  BoxTree<2> rooms_;      // as the drawing outlines them
 };
 
 }  // namespace

@@ -41,6 +41,7 @@ class StoreyBuilder {
     if (!mass) return Fail();
     const Outline outline(*mass);
     openings_ = FindOpenings(drawing_, symbols_, outline, options_.openings);
+    if (!AddOpeningsBehindOutlines(outline)) return Fail();
     RunOptions run_options;
     run_options.max_thickness_m = options_.mass.max_thickness_m;
     runs_ = FindWallRuns(outline, openings_, run_options);
@@ -95,6 +96,25 @@ class StoreyBuilder {
       for (const auto& p : path.points) leaf = leaf || (p - swings[i]->center).norm() < 0.1 * r;
     });
     return leaf;
+  }
+
+  // The outlines of rooms go on across doorways: those that are nothing but gaps show in the other lines.
+  bool AddOpeningsBehindOutlines(const Outline& outline) {
+    std::vector<uint32_t> others = wall_paths_;
+    std::erase_if(others, [&](uint32_t p) { return drawing_.paths[p].outlines_room; });
+    if (others.size() == wall_paths_.size() || others.empty()) return true;
+    const std::optional<WallMass> mass = FindWallMass(drawing_, others, options_.mass);
+    if (!mass) return false;
+    const size_t known = openings_.size();
+    for (DrawnOpening& o : FindOpenings(drawing_, symbols_, Outline(*mass), options_.openings)) {
+      const bool is_known = std::any_of(openings_.begin(), openings_.begin() + static_cast<std::ptrdiff_t>(known), [&](const DrawnOpening& k) {
+        return (k.middle() - o.middle()).norm() < 0.5 * std::max(k.width_m(), o.width_m());
+      });
+      if (is_known || !outline.InWall(o.middle())) continue;
+      o.in_wall = true;
+      openings_.push_back(std::move(o));
+    }
+    return true;
   }
 
   const SourceLocation& LocationOf(uint32_t path) const {

@@ -21,6 +21,12 @@ bool Contains(std::span<const Eigen::Vector2d> ring, const Eigen::Vector2d& p) {
   return inside;
 }
 
+double AreaOf(std::span<const Eigen::Vector2d> ring) {
+  double twice = 0;
+  for (size_t i = 0; i < ring.size(); ++i) twice += Cross(ring[i] - ring[0], ring[(i + 1) % ring.size()] - ring[0]);
+  return std::abs(0.5 * twice);
+}
+
 double LesserSide(std::span<const Eigen::Vector2d> ring) {
   Eigen::Vector2d longest = Eigen::Vector2d::Zero();
   for (size_t i = 0; i < ring.size(); ++i) {

@@ -18,6 +18,7 @@ inline constexpr uint32_t kNone = 0xffffffffu;
 
 [[nodiscard]] Eigen::AlignedBox2d BoxOf(std::span<const Eigen::Vector2d> points);
 [[nodiscard]] bool Contains(std::span<const Eigen::Vector2d> ring, const Eigen::Vector2d& p);
+[[nodiscard]] double AreaOf(std::span<const Eigen::Vector2d> ring);  // whichever way round
 // The narrow side of the rectangle around `ring` that is turned as its longest side.
 [[nodiscard]] double LesserSide(std::span<const Eigen::Vector2d> ring);
 [[nodiscard]] double DistanceToLine(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b);  // between its ends

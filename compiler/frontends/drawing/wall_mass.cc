@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <set>
 
 #include "compiler/frontends/drawing/plane.h"
 #include "compiler/geometry/box_tree.h"
@@ -16,6 +17,8 @@ namespace {
 constexpr uint32_t kClosing = 0xfffffffeu;  // source of a line that the drawing does not have
 constexpr uint32_t kSingle = 0xfffffffdu;   // of the outline of a wall drawn as one line
 constexpr double kParallel = 0.97, kSquare = 0.35, kBeside = 0.05;
+constexpr double kBeside_m = 0.02;   // from a room's outline into the room
+constexpr double kAround_m = 0.1;    // ... to the walls around it
 constexpr double kSampled_m = 0.4;  // between points where a face is measured
 constexpr int kMaxSamples = 40;     // on one side of it
 constexpr double kOff_m = 1e-4;  // from a line into the face beside it
@@ -206,7 +209,27 @@ class MassFinder {
     for (uint32_t f = 1; f < Map().num_faces(); ++f) out_.is_wall[f] = median[f] > 0 && median[f] <= limit;
     MarkFilled();
     MarkPiers();
+    ClearRooms();
     CountSingleLines();
+  }
+
+  // A closet can be as narrow as a wall; that the drawing outlines it as a room tells.
+  void ClearRooms() {
+    for (const DrawnSpace& space : drawing_.spaces) {
+      const double area_m2 = AreaOf(space.outline);
+      const Eigen::Vector2d slack = Eigen::Vector2d::Constant(kAround_m);
+      const Eigen::AlignedBox2d box(BoxOf(space.outline).min() - slack, BoxOf(space.outline).max() + slack);
+      std::set<uint32_t> faces;
+      for (size_t i = 0; i < space.outline.size(); ++i) {
+        const Eigen::Vector2d a = space.outline[i], d = space.outline[(i + 1) % space.outline.size()] - a;
+        if (d.norm() == 0) continue;
+        for (const double side_m : {-kBeside_m, kBeside_m}) faces.insert(Map().FaceAt(a + 0.5 * d + side_m * Perp(d).normalized()));
+      }
+      for (const uint32_t f : faces) {
+        if (f == 0 || !out_.is_wall[f] || 2 * Map().AreaOf(f) < area_m2) continue;
+        if (box.contains(BoxOf(Map().RingAt(Map().LoopsOf(f)[0])))) out_.is_wall[f] = false;
+      }
+    }
   }
 
   void MarkFilled() {

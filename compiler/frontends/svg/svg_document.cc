@@ -8,6 +8,7 @@
 #include <cctype>
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "compiler/frontends/svg/svg_style.h"
 #include "compiler/frontends/svg/svg_values.h"
@@ -21,6 +22,7 @@ using Eigen::Vector2d;
 using tinyxml2::XMLElement;
 
 constexpr double kLetter = 0.6;        // its width, in the text's height
+constexpr double kJump = 1.5;          // from the start of one letter to that of the next, which none is wide
 constexpr double kMiddle = 0.35;       // of capital letters above the base line
 constexpr double kMaxCoordinate = 1e9;
 constexpr std::string_view kLayerLabel = "inkscape:label";
@@ -53,6 +55,8 @@ std::string Unescaped(std::string_view id) {
   }
   return out;
 }
+
+bool IsAscii(char c) { return static_cast<unsigned char>(c) < 0x80; }
 
 // "path4109", "g12-3": a drawing program's own numbering.
 bool IsNumbered(std::string_view id) {
@@ -328,6 +332,7 @@ class Reader {
     std::string text;
     Vector2d at = Vector2d::Zero();
     double width = 0;  // stated by the places of its letters
+    std::vector<double> letters_x = {};  // ... which these are, where each of them has its own
   };
 
   // Each part with a place of its own is a text of its own.
@@ -341,7 +346,7 @@ class Reader {
     const std::vector<double> x = SvgNumbers(AttributeOf(e, "x")), y = SvgNumbers(AttributeOf(e, "y")), dy = SvgNumbers(AttributeOf(e, "dy"));
     if (!x.empty() || !y.empty() || !dy.empty()) {
       Flush(e, place, line);
-      if (!x.empty()) line.at.x() = x.front(), line.width = x.size() > 1 ? x.back() - x.front() + kLetter * place.style.font_size : 0;
+      if (!x.empty()) line.at.x() = x.front(), line.letters_x = x;
       if (!y.empty()) line.at.y() = y.front();
       if (!dy.empty()) line.at.y() += AttributeOf(e, "dy").find("em") != std::string_view::npos ? dy.front() * place.style.font_size : dy.front();
     }
@@ -356,9 +361,29 @@ class Reader {
     }
   }
 
+  // Programs that print put several texts of one height into one element: they are told by the jumps between their letters.
   void Flush(const XMLElement& e, const Place& place, Line& line) {
-    const std::string text = fmt::format("{}", fmt::join(Words(line.text), " "));
-    line.text.clear();
+    const std::vector<double> x = std::exchange(line.letters_x, {});
+    const std::string text = fmt::format("{}", fmt::join(Words(std::exchange(line.text, {})), " "));
+    const double size = place.style.font_size, letter = kLetter * size;
+    const bool one_by_one = x.size() > 1 && x.size() <= text.size() && std::all_of(text.begin(), text.end(), IsAscii);
+    size_t first = 0;
+    for (size_t i = 1; one_by_one && i < x.size(); ++i) {
+      if (x[i] > x[i - 1] && x[i] - x[i - 1] < kJump * size) continue;
+      line.text = text.substr(first, i - first);
+      line.at.x() = x[first];
+      line.width = x[i - 1] - x[first] + letter;
+      FlushPart(e, place, line);
+      first = i;
+    }
+    line.text = text.substr(first);
+    if (!x.empty()) line.at.x() = x[first];
+    line.width = x.size() > first + 1 ? x.back() - x[first] + letter : 0;
+    FlushPart(e, place, line);
+  }
+
+  void FlushPart(const XMLElement& e, const Place& place, Line& line) {
+    const std::string text = fmt::format("{}", fmt::join(Words(std::exchange(line.text, {})), " "));
     const double size = place.style.font_size;
     const double width = line.width > 0 ? line.width : kLetter * size * static_cast<double>(text.size());
     const Vector2d at = place.T * (line.at + Vector2d((0.5 - place.style.text_anchor) * width, -kMiddle * size));

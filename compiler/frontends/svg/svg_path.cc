@@ -12,6 +12,7 @@ namespace {
 
 using Eigen::Vector2d;
 
+constexpr double kCloses = 1e-4;  // of an outline, between its ends
 constexpr double kPi = std::numbers::pi;
 constexpr double kStep_rad = kPi / 48;  // keeps within 0.05 % of the radius
 constexpr int kMaxSteps = 96;  // of one curve
@@ -171,8 +172,12 @@ class PathReader {
     if (outline_.points.empty() || outline_.points.back() != p) outline_.points.push_back(p);
   }
 
+  // Relative steps that are rounded each do not lead back to the very start.
   void Finish(bool closed) {
-    if (outline_.points.size() > 2 && outline_.points.front() == outline_.points.back()) {
+    Eigen::AlignedBox2d box;
+    for (const Vector2d& p : outline_.points) box.extend(p);
+    const size_t size = outline_.points.size();
+    if (size > 2 && (outline_.points.front() - outline_.points.back()).norm() <= (size > 3 ? kCloses * box.diagonal().norm() : 0)) {
       outline_.points.pop_back();
       closed = true;
     }

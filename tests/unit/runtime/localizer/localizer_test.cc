@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "tests/support/house.h"
@@ -35,7 +37,8 @@ struct Session {
 
   [[nodiscard]] Eigen::Isometry3d TruthAt(double t_s) const { return drive.At(t_s) * T_base_lidar; }
   ScanVerdict Next() {
-    const Scan scan = lidar.Sweep([this](double t_s) { return TruthAt(t_s); }, time_s);
+    Scan scan = lidar.Sweep([this](double t_s) { return TruthAt(t_s); }, time_s);
+    scan.stamp_s += paused_s;
     time_s += kPeriod_s;
     return localizer.AddScan(scan, std::nullopt);
   }
@@ -58,7 +61,8 @@ struct Session {
   test::SyntheticLidar lidar;
   Eigen::Isometry3d T_base_lidar;
   test::Drive drive = test::HouseDrive();
-  double time_s = 0;
+  double time_s = 0;    // of the drive
+  double paused_s = 0;  // the clock is ahead of that by this
 };
 
 TEST(Localizer, FindsAndTracksTheRobotFromNothing) {
@@ -110,6 +114,7 @@ TEST(Localizer, SaysLostWhenBlindAndKeepsAPose) {
   EXPECT_TRUE(v.T_plan_lidar);
   EXPECT_FALSE(run.localizer.T_plan_map());
   // Sight comes back where it went: the robot is found in its map again.
+  run.paused_s = run.time_s - blind_from_s;
   run.time_s = blind_from_s;
   EXPECT_EQ(run.Next().verdict, Verdict::kLocalized);
   for (int i = 0; i < 10; ++i) run.Next();
@@ -166,6 +171,65 @@ TEST(Localizer, GivesTheSamePosesForTheSameScans) {
     ASSERT_EQ(va.T_plan_lidar.has_value(), vb.T_plan_lidar.has_value());
     if (va.T_plan_lidar) { ASSERT_EQ(va.T_plan_lidar->matrix(), vb.T_plan_lidar->matrix()); }
   }
+}
+
+// Every trouble a sensor makes, one after the other, once it is localized: the pose goes on being right.
+TEST(Localizer, GoesOnThroughSensorTrouble) {
+  const AGraph house = test::MakeHouse();
+  Session run(house, house);
+  ASSERT_GT(run.Until(Verdict::kLocalized), 0);
+  for (int i = 0; run.time_s + 3 < run.drive.duration_s(); ++i) {
+    Scan scan = run.lidar.Sweep([&](double t_s) { return run.TruthAt(t_s); }, run.time_s);
+    run.time_s += kPeriod_s;
+    switch (i % 12) {
+      case 1: scan.ring.clear(); break;
+      case 2: scan.intensity.clear(); break;
+      case 3:
+        for (size_t k = 0; k < scan.points.size(); k += 3) scan.points[k].y() = std::numeric_limits<float>::quiet_NaN();
+        break;
+      case 5: scan = {scan.stamp_s, {}, {}, {}, {}}; break;
+      case 7: EXPECT_TRUE(run.localizer.AddScan(scan, std::nullopt).in_order); break;  // and once more
+      case 9: scan.stamp_s -= 0.5; break;
+      case 11: scan.time_s.assign(scan.points.size(), std::numeric_limits<float>::infinity()); break;
+      default: break;
+    }
+    if (i == 40) run.time_s += 2;  // nothing for two seconds
+    const ScanVerdict v = run.localizer.AddScan(scan, std::nullopt);
+    EXPECT_EQ(v.in_order, i % 12 != 7 && i % 12 != 9);
+    ASSERT_EQ(v.verdict, Verdict::kLocalized) << "at " << v.stamp_s;
+    if (v.in_order && !scan.points.empty()) { EXPECT_LT(ErrorOf(*v.T_plan_lidar, run.TruthAt(v.stamp_s)).position_m, 0.1) << "at " << v.stamp_s; }
+  }
+  run.localizer.Finish();
+  const Trajectory smoothed = run.localizer.SmoothedTrajectory();
+  EXPECT_TRUE(std::is_sorted(smoothed.begin(), smoothed.end(), [](const StampedPose& a, const StampedPose& b) { return a.stamp_s <= b.stamp_s; }));
+}
+
+TEST(Localizer, LeavesOutScansWithoutAStamp) {
+  const AGraph house = test::MakeHouse();
+  Localizer localizer(house);
+  Scan scan;
+  scan.stamp_s = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(localizer.AddScan(scan, std::nullopt).in_order);
+  scan.stamp_s = 1;
+  EXPECT_TRUE(localizer.AddScan(scan, std::nullopt).in_order);
+}
+
+TEST(Localizer, TakesScansOfThreeHundredThousandPoints) {
+  const AGraph house = test::MakeHouse();
+  test::SyntheticLidarOptions dense;
+  dense.rings = 128;
+  dense.azimuths = 2400;
+  const test::SyntheticLidar lidar(house, dense);
+  const test::Drive drive = test::HouseDrive();
+  Localizer localizer(house);
+  ScanVerdict v;
+  for (int i = 0; i < 25; ++i) {
+    const Scan scan = lidar.Sweep([&](double t_s) { return drive.At(t_s); }, 0.4 * i);
+    ASSERT_GT(scan.points.size(), 290000u);
+    v = localizer.AddScan(scan, std::nullopt);
+  }
+  EXPECT_EQ(v.verdict, Verdict::kLocalized);
+  for (const Keyframe& keyframe : localizer.map().keyframes) EXPECT_LE(keyframe.points.size(), static_cast<size_t>(MapperOptions{}.max_keyframe_points));
 }
 
 TEST(LocalizerOptions, CheckNamesFieldValueAndRule) {

@@ -16,7 +16,6 @@ TEST(MirrorImage, TwiceIsThePlanAgain) {
     EXPECT_EQ(twice.surfaces[i].normal, house.surfaces[i].normal);
     EXPECT_NEAR(twice.surfaces[i].d_m, house.surfaces[i].d_m, 1e-9);
   }
-  EXPECT_EQ(twice.mesh.vertices, house.mesh.vertices);
 }
 
 TEST(MirrorImage, KeepsNormalsTowardsTheFreeSpace) {
@@ -26,6 +25,24 @@ TEST(MirrorImage, KeepsNormalsTowardsTheFreeSpace) {
     EXPECT_NEAR(s.normal.x(), -along.y(), 1e-9);
     EXPECT_NEAR(s.normal.y(), along.x(), 1e-9);
     EXPECT_NEAR(s.normal.head<2>().dot(s.midpoint()) + s.d_m, 0, 1e-9);
+  }
+}
+
+// The mirror image is met by the mirrored ray, at the same range and the mirrored normal.
+TEST(PlanIndex, OfAMirrorImageSharesTheTriangles) {
+  const AGraph house = test::MakeHouse(), image = MirrorImage(house);
+  const PlanIndex plan(house), mirrored(image, plan);
+  const Eigen::Vector3f from(2.0f, 1.5f, 1.0f);
+  for (int i = 0; i < 36; ++i) {
+    const float angle = 0.17f * static_cast<float>(i) + 0.05f;
+    const Eigen::Vector3f along(std::cos(angle), std::sin(angle), 0.0f), flip(-1, 1, 1);
+    const PlanHit hit = plan.Cast({from, along, 50.0f});
+    const PlanHit seen = mirrored.Cast({flip.cwiseProduct(from), flip.cwiseProduct(along), 50.0f});
+    ASSERT_TRUE(hit.first.hit());
+    EXPECT_EQ(seen.first.range_m, hit.first.range_m);
+    EXPECT_EQ(seen.first.triangle, hit.first.triangle);
+    EXPECT_EQ(seen.first.normal, flip.cwiseProduct(hit.first.normal));
+    EXPECT_EQ(seen.soft, hit.soft);
   }
 }
 

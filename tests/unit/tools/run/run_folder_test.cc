@@ -75,8 +75,24 @@ TEST(RunInfo, ReadsBackAsWritten) {
   EXPECT_EQ(RunInfoToJson(*read), RunInfoToJson(info));
   EXPECT_EQ(read->plan_source, info.plan_source);
   EXPECT_EQ(read->time_to_localize_s, info.time_to_localize_s);
+  EXPECT_FALSE(read->pace);
   info.time_to_localize_s.reset();
   EXPECT_FALSE(ParseRunInfo(RunInfoToJson(info), "run.json")->time_to_localize_s.has_value());
+}
+
+TEST(RunInfo, SaysHowARunAtARobotsPaceKeptUp) {
+  RunInfo info;
+  std::vector<double> latencies_ms;
+  for (int i = 0; i <= 100; ++i) latencies_ms.push_back(100 - i);
+  info.pace = PaceOf(latencies_ms);
+  EXPECT_EQ(info.pace->latency_p50_ms, 50);
+  EXPECT_EQ(info.pace->latency_p99_ms, 99);
+  info.pace->held_solves = 7;
+  const auto read = ParseRunInfo(RunInfoToJson(info), "run.json");
+  ASSERT_TRUE(read && read->pace);
+  EXPECT_EQ(read->pace->latency_p99_ms, 99);
+  EXPECT_EQ(read->pace->held_solves, 7u);
+  EXPECT_EQ(PaceOf({}).latency_p50_ms, 0);
 }
 
 TEST(ReadRun, NamesTheMissingFile) {

@@ -132,6 +132,18 @@ TEST(ReadSvgDocument, NamesNodesByLabelClassAndId) {
   EXPECT_EQ(document.shapes[0].location.guid, "path12");
 }
 
+TEST(ReadSvgDocument, LettersThatJumpAlongTheLineStartATextOfTheirOwn) {
+  const SvgDocument document = DocumentOf("<text font-size='10' x='100 106 112 160 166 40 46 52' y='20'>12A34567</text><text font-size='10' x='0 8 14 20 23'>A 1 B</text>");
+  ASSERT_EQ(document.texts.size(), 4u);
+  EXPECT_EQ(document.texts[0].text, "12A");
+  EXPECT_NEAR(document.texts[0].at.x(), 109, 1e-9);
+  EXPECT_EQ(document.texts[1].text, "34");
+  EXPECT_NEAR(document.texts[1].at.x(), 166, 1e-9);
+  EXPECT_EQ(document.texts[2].text, "567");
+  EXPECT_NEAR(document.texts[2].at.x(), 49, 1e-9);
+  EXPECT_EQ(document.texts[3].text, "A 1 B");
+}
+
 TEST(ReadSvgDocument, TextsWithPlacesOfTheirOwnStandAlone) {
   const SvgDocument document = DocumentOf("<text font-size='10' text-anchor='middle'><tspan x='50' y='20'>Living</tspan><tspan x='50' dy='12'>\n room </tspan></text>");
   ASSERT_EQ(document.texts.size(), 2u);

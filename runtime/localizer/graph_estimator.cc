@@ -1,0 +1,277 @@
+#include "runtime/localizer/graph_estimator.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "runtime/coupling/coupling.h"
+#include "runtime/localizer/stopwatch.h"
+#include "runtime/mapping/mapper.h"
+#include "runtime/optimization/window_optimizer.h"
+
+namespace plumb::runtime {
+namespace {
+
+// Walls seen while the robot turned are bent by motion that could not be taken out: by some centimetres and degrees.
+constexpr double kUntimedShare = 0.1, kUntimedFloor_m = 0.05, kUntimedFloor_rad = 0.05;
+
+constexpr double kPlanarPlaceSigma_m = 0.05;  // of a planar map's place by its rays
+
+// A registered scan by the keyframe that was the newest when it came: it follows that keyframe through every later solve.
+struct ScanPlace {
+  double stamp_s = 0;
+  uint32_t keyframe = 0;
+  Eigen::Isometry3d T_odom_lidar = Eigen::Isometry3d::Identity();
+};
+
+}  // namespace
+
+const char* VerdictName(Verdict verdict) {
+  switch (verdict) {
+    case Verdict::kSearching: return "searching";
+    case Verdict::kAmbiguous: return "ambiguous";
+    case Verdict::kLocalized: return "localized";
+    case Verdict::kLost: return "lost";
+  }
+  return "searching";
+}
+
+struct GraphEstimator::Impl {
+  Impl(const AGraph& plan_in, const LocalizerOptions& options_in)
+      : plan(plan_in), options(options_in), mapper(options.mapper), matcher(plan, options.matcher) {
+    ForgetFix();
+  }
+
+  const AGraph& plan;
+  LocalizerOptions options;
+  Mapper mapper;
+  Matcher matcher;
+
+  Verdict verdict = Verdict::kSearching;
+  MatchResult match;
+  JointResult joint;
+  Eigen::Isometry3d T_plan_map = Eigen::Isometry3d::Identity();  // of the last fix
+  Eigen::Isometry3d T_by_rays = Eigen::Isometry3d::Identity();   // as the matcher found it
+  bool ever_fixed = false;
+  int odometry_map = 0;
+  size_t num_scans = 0, num_untimed = 0;  // with points
+  size_t num_keyframes = 0;               // made of the present map so far, ...
+  size_t solved_all_at = 0;               // ... and when everything was last solved
+  bool solve_due = false, rescore_due = false;
+  std::vector<WallDeviation> known;       // per plan wall, as estimated so far
+  std::vector<Eigen::Isometry3d> rivals;  // of the fix, T_plan_map each
+  int votes_against = 0;
+  std::vector<ScanPlace> places;
+  // Of maps that were given up while they lay in the plan.
+  Trajectory earlier_poses;
+  std::vector<SurfaceDeviation> earlier_surfaces;
+  std::vector<RoomDeviation> earlier_rooms;
+
+  [[nodiscard]] bool placed() const { return verdict == Verdict::kLocalized; }
+
+  void ForgetFix() {
+    known.assign(plan.walls.size(), {});
+    rivals.clear();
+    votes_against = 0;
+    solve_due = rescore_due = false;
+    joint = {};
+  }
+
+  // Tries to find the map in the plan. A try that leaves several places open is no fix.
+  void Search() {
+    match = matcher.Match(mapper.graph());
+    switch (match.verdict) {
+      case MatchResult::Verdict::kSearching:
+        if (verdict != Verdict::kLost) verdict = Verdict::kSearching;
+        return;
+      case MatchResult::Verdict::kAmbiguous: verdict = Verdict::kAmbiguous; return;
+      case MatchResult::Verdict::kUnique: break;
+    }
+    ForgetFix();
+    T_plan_map = T_by_rays = match.hypotheses.front().T_plan_map;
+    for (size_t i = 1; i < match.hypotheses.size(); ++i) rivals.push_back(match.hypotheses[i].T_plan_map);
+    verdict = Verdict::kLocalized;
+    ever_fixed = true;
+    Optimize(false);
+  }
+
+  [[nodiscard]] JointOptions SolverOptions() const {
+    JointOptions out = options.joint;
+    // Half of the walls that a planar laser sees are furniture, which may agree with each other better than with the walls. The rays know.
+    if (mapper.graph().planar) {
+      out.place = T_by_rays;
+      out.place_sigma_m = kPlanarPlaceSigma_m;
+    }
+    if (num_untimed > kUntimedShare * static_cast<double>(num_scans)) {
+      out.observation_floor_m = std::max(out.observation_floor_m, kUntimedFloor_m);
+      out.observation_floor_rad = std::max(out.observation_floor_rad, kUntimedFloor_rad);
+    }
+    return out;
+  }
+
+  // Couples map and plan at the current estimate and solves everything jointly. Covariances cost half of the time and steer nothing:
+  // they are left out until somebody asks.
+  void Optimize(bool covariances) {
+    const std::vector<Match> matches = MatchSurfaces(mapper.graph(), plan, T_plan_map, known, options.coupling);
+    if (matches.empty()) return;
+    JointOptions joint_options = SolverOptions();
+    joint_options.covariances = covariances;
+    JointResult result = OptimizeJointly(mapper.graph(), plan, matches, T_plan_map, joint_options);
+    if (result.T_map_kf.empty()) return;  // unusable; a solution short of its last digit is not
+    joint = std::move(result);
+    T_plan_map = joint.T_plan_map;
+    for (const WallEstimate& wall : joint.walls) known[wall.wall.index()] = wall.deviation;
+    std::vector<Keyframe>& keyframes = mapper.mutable_graph().keyframes;
+    for (size_t i = 0; i < keyframes.size() && i < joint.T_map_kf.size(); ++i) keyframes[i].T_map_kf = joint.T_map_kf[i];
+    mapper.OnPosesChanged();
+    solved_all_at = num_keyframes;
+  }
+
+  // Between two solves over everything, which cost more the larger the map is, only the newest keyframes are laid on it; those of a planar laser
+  // stay where odometry has them.
+  void Solve() {
+    size_t kept = 0;
+    for (const Keyframe& keyframe : mapper.graph().keyframes) kept += !keyframe.merged;
+    if (static_cast<double>(num_keyframes - solved_all_at) >= options.solve_all_growth * static_cast<double>(kept)) return Optimize(false);
+    if (mapper.graph().planar) return;
+    const std::vector<Eigen::Isometry3d> poses = OptimizeWindow(mapper.graph(), static_cast<size_t>(options.window_keyframes), SolverOptions());
+    if (poses.empty()) return Optimize(false);
+    std::vector<Keyframe>& keyframes = mapper.mutable_graph().keyframes;
+    for (size_t i = 0; i < poses.size(); ++i) keyframes[keyframes.size() - poses.size() + i].T_map_kf = poses[i];
+    mapper.OnPosesChanged();
+  }
+
+  // Does the evidence still speak for the fix? A rival, or "outside the plan", that is better several times in a row ends it.
+  void Rescore() {
+    const double own = matcher.Score(mapper.graph(), T_plan_map);
+    double best_rival = 0;  // "outside the plan"
+    for (const Eigen::Isometry3d& T : rivals) best_rival = std::max(best_rival, matcher.Score(mapper.graph(), T));
+    votes_against = best_rival > own + options.rival_margin_nats ? votes_against + 1 : 0;
+    if (votes_against < options.lost_after) return;
+    verdict = Verdict::kLost;
+    HoldPose();
+    // The plan has bent the map to a wrong place: back to what odometry says. (Surfaces that were merged meanwhile stay merged.)
+    for (Keyframe& keyframe : mapper.mutable_graph().keyframes) keyframe.T_map_kf = keyframe.T_odom_kf;
+    mapper.OnPosesChanged();
+    ForgetFix();
+  }
+
+  // After a new keyframe. True if what is due was held back.
+  bool OnKeyframe(bool hold, std::vector<StageTime>& timing) {
+    ++num_keyframes;
+    if (placed()) {
+      solve_due |= num_keyframes % static_cast<size_t>(options.optimize_every) == 0;
+      rescore_due |= num_keyframes % static_cast<size_t>(options.rescore_every) == 0;
+    }
+    if (hold) return true;
+    Stopwatch watch;
+    if (!placed()) {
+      Search();
+      timing.push_back({"matching", watch.Lap()});
+      return false;
+    }
+    if (std::exchange(solve_due, false)) Solve();
+    timing.push_back({"optimization", watch.Lap()});
+    if (std::exchange(rescore_due, false)) {
+      Rescore();
+      timing.push_back({"matching", watch.Lap()});
+    }
+    return false;
+  }
+
+  void Remember(double stamp_s, const Eigen::Isometry3d& T_odom_lidar) {
+    const std::vector<Keyframe>& keyframes = mapper.graph().keyframes;
+    places.push_back({stamp_s, keyframes.empty() ? 0 : keyframes.back().id, T_odom_lidar});
+  }
+
+  // From now on the pose is odometry's, going on from where it is.
+  void HoldPose() { T_plan_map = T_plan_map * mapper.T_map_odom(); }
+
+  // Odometry has begun a new map: what is seen now is not tied to what was seen before, so neither must the graph be.
+  void StartOver() {
+    if (placed()) Archive();
+    HoldPose();
+    mapper = Mapper(options.mapper);
+    places.clear();
+    num_keyframes = solved_all_at = 0;
+    match = {};
+    verdict = ever_fixed ? Verdict::kLost : Verdict::kSearching;
+    ForgetFix();
+  }
+
+  // Keeps what a map that lies in the plan has to say, before it is given up.
+  void Archive() {
+    mapper.Flush();
+    Optimize(true);
+    const Trajectory poses = SmoothedPoses();
+    earlier_poses.insert(earlier_poses.end(), poses.begin(), poses.end());
+    DeviationReport report = Deviations();
+    earlier_surfaces = std::move(report.surfaces);
+    earlier_rooms = std::move(report.rooms);
+  }
+
+  [[nodiscard]] Trajectory SmoothedPoses() const {
+    Trajectory out;
+    out.reserve(places.size());
+    const std::vector<Keyframe>& keyframes = mapper.graph().keyframes;
+    for (const ScanPlace& place : places) {
+      const Keyframe& keyframe = keyframes[place.keyframe];  // there is one: the fix came after it
+      out.push_back({place.stamp_s, T_plan_map * keyframe.T_map_kf * keyframe.T_odom_kf.inverse() * place.T_odom_lidar});
+    }
+    return out;
+  }
+
+  [[nodiscard]] DeviationReport Deviations() const {
+    DeviationReport report = AssessDeviations(plan, joint, options.deviations);
+    for (size_t i = 0; i < earlier_surfaces.size(); ++i) {
+      if (report.surfaces[i].status == SurfaceStatus::kUnobserved) report.surfaces[i] = earlier_surfaces[i];
+    }
+    for (size_t i = 0; i < earlier_rooms.size(); ++i) {
+      if (report.rooms[i].status == SurfaceStatus::kUnobserved) report.rooms[i] = earlier_rooms[i];
+    }
+    return report;
+  }
+};
+
+GraphEstimator::GraphEstimator(const AGraph& plan, const LocalizerOptions& options) : impl_(std::make_unique<Impl>(plan, options)) {}
+GraphEstimator::~GraphEstimator() = default;
+
+GraphState GraphEstimator::Add(const RegisteredScan& scan, bool hold) {
+  Impl& s = *impl_;
+  const OdometryResult& o = scan.odometry;
+  GraphState out;
+  if (scan.has_points) {
+    ++s.num_scans;
+    s.num_untimed += !o.timed;
+  }
+  Stopwatch watch;
+  if (scan.odometry_map != s.odometry_map) s.StartOver();
+  s.odometry_map = out.odometry_map = scan.odometry_map;
+  // Scans that registration could not place stay out of the map, which still lies where it did.
+  if (o.ok || o.restarted) {
+    s.mapper.HoldPoses(s.placed());
+    const bool grew = s.mapper.AddScan(o.deskewed, o.T_odom_lidar, o.planar ? std::optional(o.step_covariance) : std::nullopt);
+    out.timing.push_back({"mapping", watch.Lap()});
+    if (grew) out.solve_held = s.OnKeyframe(hold, out.timing);
+    s.Remember(scan.stamp_s, o.T_odom_lidar);
+  }
+  out.verdict = s.verdict;
+  out.hypotheses = static_cast<int>(s.match.hypotheses.size());
+  if (s.ever_fixed) out.T_plan_odom = s.T_plan_map * s.mapper.T_map_odom();
+  return out;
+}
+
+void GraphEstimator::Finish() {
+  impl_->mapper.Flush();
+  if (impl_->placed()) impl_->Optimize(true);
+}
+
+bool GraphEstimator::placed() const { return impl_->placed(); }
+Eigen::Isometry3d GraphEstimator::T_plan_map() const { return impl_->T_plan_map; }
+const SGraph& GraphEstimator::map() const { return impl_->mapper.graph(); }
+const MatchResult& GraphEstimator::last_match() const { return impl_->match; }
+const JointResult& GraphEstimator::estimate() const { return impl_->joint; }
+DeviationReport GraphEstimator::Deviations() const { return impl_->Deviations(); }
+Trajectory GraphEstimator::SmoothedPoses() const { return impl_->SmoothedPoses(); }
+const Trajectory& GraphEstimator::earlier_poses() const { return impl_->earlier_poses; }
+
+}  // namespace plumb::runtime

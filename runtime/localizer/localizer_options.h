@@ -1,0 +1,31 @@
+// Options of the localizer and all its stages.
+#pragma once
+
+#include <string>
+
+#include "runtime/coupling/coupling.h"
+#include "runtime/deviations/deviations.h"
+#include "runtime/mapping/mapper_options.h"
+#include "runtime/matching/matcher.h"
+#include "runtime/odometry/odometry.h"
+#include "runtime/optimization/joint_optimizer.h"
+
+namespace plumb::runtime {
+
+struct LocalizerOptions {
+  int optimize_every = 1;          // keyframes between two solves once localized: ...
+  double solve_all_growth = 0.05;  // ... of everything when the map has grown by this share since the last of them, ...
+  int window_keyframes = 20;       // ... else of the poses of so many newest keyframes; at most mapper.recent_keyframes
+  int rescore_every = 10;          // keyframes between two re-scorings of the fix against its rivals and against "outside the plan"
+  int lost_after = 2;              // as many re-scorings in a row that speak against the fix end it
+  double rival_margin_nats = 5.0;  // a rival must be better by this much to count against the fix
+  OdometryOptions odometry;
+  MapperOptions mapper;
+  MatcherOptions matcher;
+  CouplingOptions coupling;
+  JointOptions joint;
+  DeviationOptions deviations;
+  [[nodiscard]] std::string Check() const;  // empty, or the field, its value and the rule
+};
+
+}  // namespace plumb::runtime

@@ -1,0 +1,87 @@
+#include "runtime/mapping/keyframe_merging.h"
+
+#include <algorithm>
+
+namespace plumb::runtime {
+namespace {
+
+constexpr size_t kLeastPoints = 500;  // a keyframe with fewer is not thinned: it could not be matched by them
+
+std::vector<Observation>::const_iterator Find(const std::vector<Observation>& observations, uint32_t keyframe) {
+  const auto at = std::lower_bound(observations.begin(), observations.end(), keyframe, [](const Observation& o, uint32_t k) { return o.keyframe < k; });
+  return at != observations.end() && at->keyframe == keyframe ? at : observations.end();
+}
+
+bool Saw(const MapSurface& surface, uint32_t keyframe) { return Find(surface.observations, keyframe) != surface.observations.end(); }
+
+struct SeenPoints {
+  const MapSurface* surface = nullptr;
+  double num_points = 0;
+};
+
+}  // namespace
+
+std::optional<uint32_t> RedundantTo(const SGraph& graph, uint32_t keyframe, const MapperOptions& options) {
+  std::vector<SeenPoints> well_known;
+  double num_points = 0;
+  for (const MapSurface& surface : graph.surfaces) {
+    const auto seen = Find(surface.observations, keyframe);
+    if (seen == surface.observations.end()) continue;
+    num_points += seen->stats.count();
+    if (surface.observations.size() > static_cast<size_t>(options.well_known_views)) well_known.push_back({&surface, seen->stats.count()});
+  }
+  std::optional<uint32_t> best;
+  double most = options.redundant_share * num_points;
+  const Eigen::Vector3d at = graph.keyframes[keyframe].T_map_kf.translation();
+  for (uint32_t other = 0; other < keyframe; ++other) {
+    const Keyframe& into = graph.keyframes[other];
+    if (into.merged || (into.T_map_kf.translation() - at).norm() >= options.redundant_distance_m) continue;
+    double shared = 0;
+    for (const SeenPoints& seen : well_known) shared += Saw(*seen.surface, other) ? seen.num_points : 0;
+    if (shared <= most) continue;
+    most = shared;
+    best = other;
+  }
+  return best;
+}
+
+void MergeKeyframe(uint32_t keyframe, uint32_t into, SGraph* graph) {
+  Keyframe& merged = graph->keyframes[keyframe];
+  merged.merged = Keyframe::Merged{into, graph->keyframes[into].T_map_kf.inverse() * merged.T_map_kf};
+  merged.points.clear();
+  merged.points.shrink_to_fit();
+  for (MapSurface& surface : graph->surfaces) {
+    std::vector<Observation>& observations = surface.observations;
+    const auto seen = Find(observations, keyframe);
+    if (seen == observations.end()) continue;
+    const Observation moved{into, seen->stats.Transformed(merged.merged->T_into_kf)};
+    observations.erase(seen);
+    const auto at = std::lower_bound(observations.begin(), observations.end(), into, [](const Observation& o, uint32_t k) { return o.keyframe < k; });
+    if (at != observations.end() && at->keyframe == into) {
+      at->stats.Add(moved.stats);
+    } else {
+      observations.insert(at, moved);
+    }
+  }
+}
+
+void BoundPoints(size_t max_points, std::vector<Keyframe>* keyframes) {
+  for (;;) {
+    size_t total = 0, most = 0;
+    for (const Keyframe& keyframe : *keyframes) {
+      total += keyframe.points.size();
+      most = std::max(most, keyframe.points.size());
+    }
+    if (total <= max_points || most <= kLeastPoints) return;
+    for (Keyframe& keyframe : *keyframes) {
+      std::vector<Eigen::Vector3f>& points = keyframe.points;
+      if (2 * points.size() <= most) continue;
+      const size_t count = (points.size() + 1) / 2;
+      for (size_t i = 0; i < count; ++i) points[i] = points[2 * i];
+      points.resize(count);
+      points.shrink_to_fit();
+    }
+  }
+}
+
+}  // namespace plumb::runtime

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 
 #include "runtime/coupling/level_matching.h"
@@ -29,6 +30,7 @@ constexpr size_t kMinPassed = 5;
 constexpr double kInOpeningRatio = 0.6;    // of an observation's extent either way: it is of what fills the opening
 constexpr double kHalfExtentSigmas = 1.7;  // half the extent of evenly spread points
 constexpr double kMinSingleArea_m2 = 0.6;  // a smaller patch seen from one keyframe only is too rough to tell
+constexpr double kMaxThicker_m = 0.10;     // no wall is built thicker than planned by more: one of its faces is the front of furniture
 constexpr double kStepPerMetre = 0.01;     // lines are compared at a distance: allow for their direction errors
 
 // A wall patch of the map, in plan coordinates.
@@ -115,7 +117,7 @@ double OverlapRatio(double a0, double a1, double b0, double b1) {
 }
 
 std::optional<Candidate> Compare(const Patch& patch, SurfaceId id, const Surface& surface, const WallFrame& frame, const WallDeviation& known,
-                                 const std::vector<WallOpening>& openings, const SightLines& sight, const CouplingOptions& options) {
+                                 const std::vector<WallOpening>& openings, const SightLines& sight, double max_offset_m, const CouplingOptions& options) {
   const Eigen::Vector3d& n = surface.normal;
   const double yaw = std::atan2(n.x() * patch.normal.y() - n.y() * patch.normal.x(), n.head<2>().dot(patch.normal.head<2>()));
   if (std::abs(yaw - known.yaw_rad) > options.max_yaw_rad) return std::nullopt;
@@ -139,7 +141,7 @@ std::optional<Candidate> Compare(const Patch& patch, SurfaceId id, const Surface
   const Eigen::Vector2d arm = on_plan - frame.pivot.head<2>();
   const double expected = known.offset_m * frame.normal.dot(n) + known.yaw_rad * n.head<2>().dot(Eigen::Vector2d(-arm.y(), arm.x()));
   const Eigen::Vector2d residual(c.offset_m - expected, yaw - known.yaw_rad);
-  if (std::abs(residual.x()) > options.max_offset_m) return std::nullopt;
+  if (std::abs(residual.x()) > max_offset_m) return std::nullopt;
   if (OpenRatio(patch, openings, along, std::min(c.offset_m, residual.x()) < -kRecess_m) > kMaxOpenRatio) return std::nullopt;
   if (std::abs(c.offset_m) > kOffPlan_m && IsSeenThrough(patch, surface, openings, sight)) return std::nullopt;
   const double yaw_sigma = kMapSigma_m / std::max(patch.length(), 0.3);
@@ -263,10 +265,31 @@ class Assignment {
   const CouplingOptions& options_;
 };
 
+// Drops what stands before a wall whose other face was seen as well, where the two together would make the wall far too thick. A planar laser
+// sees of a cupboard no more and no less than of a wall; a lidar with many rings sees over it, and lines decide.
+void DropFurnitureFronts(const std::vector<Patch>& patches, std::vector<std::vector<Candidate>>& assigned) {
+  std::map<int, std::pair<double, double>> sides;  // sum of offset * area, area
+  for (size_t i = 0; i < patches.size(); ++i) {
+    if (assigned[i].empty()) continue;
+    auto& [moment, area] = sides[assigned[i].front().side];
+    moment += assigned[i].front().offset_m * patches[i].area;
+    area += patches[i].area;
+  }
+  const auto in_front_m = [&](int side) {
+    const auto at = sides.find(side);
+    return at == sides.end() || at->second.second <= 0 ? 0.0 : at->second.first / at->second.second;
+  };
+  for (auto& list : assigned) {
+    if (list.empty() || !sides.contains(list.front().side ^ 1)) continue;
+    const int side = list.front().side;
+    if (in_front_m(side) + in_front_m(side ^ 1) > kMaxThicker_m && in_front_m(side) > 0.5 * kMaxThicker_m) list.clear();
+  }
+}
+
 }  // namespace
 
 std::string CouplingOptions::Check() const {
-  const std::pair<const char*, double> positive[] = {{"max_offset_m", max_offset_m}, {"max_yaw_rad", max_yaw_rad},
+  const std::pair<const char*, double> positive[] = {{"max_offset_m", max_offset_m}, {"planar_max_offset_m", planar_max_offset_m}, {"max_yaw_rad", max_yaw_rad},
       {"max_level_offset_m", max_level_offset_m}, {"max_step_m", max_step_m}, {"offset_tau0_m", offset_tau0_m},
       {"offset_tau1_m", offset_tau1_m}, {"yaw_tau0_rad", yaw_tau0_rad}, {"yaw_tau1_rad", yaw_tau1_rad}};
   for (const auto& [name, value] : positive) {
@@ -288,6 +311,7 @@ std::vector<Match> MatchSurfaces(const SGraph& map, const AGraph& plan, const Ei
   const std::vector<Patch> patches = WallPatches(map, T_plan_map);
   const std::vector<std::vector<WallOpening>> openings = OpeningsOfWalls(plan);
   const SightLines sight(map, T_plan_map);
+  const double max_offset_m = map.planar ? options.planar_max_offset_m : options.max_offset_m;
   std::vector<std::vector<Candidate>> candidates(patches.size());
   for (size_t i = 0; i < patches.size(); ++i) {
     for (size_t j = 0; j < plan.surfaces.size(); ++j) {
@@ -295,10 +319,11 @@ std::vector<Match> MatchSurfaces(const SGraph& map, const AGraph& plan, const Ei
       if (!surface.wall.valid() || !IsFace(frames[surface.wall.index()], surface)) continue;
       const WallDeviation deviation = surface.wall.index() < known.size() ? known[surface.wall.index()] : WallDeviation{};
       const size_t wall = surface.wall.index();
-      if (auto c = Compare(patches[i], SurfaceId(j), surface, frames[wall], deviation, openings[wall], sight, options)) candidates[i].push_back(*c);
+      if (auto c = Compare(patches[i], SurfaceId(j), surface, frames[wall], deviation, openings[wall], sight, max_offset_m, options)) candidates[i].push_back(*c);
     }
   }
-  const std::vector<std::vector<Candidate>> assigned = Assignment(patches, std::move(candidates), options).Solve();
+  std::vector<std::vector<Candidate>> assigned = Assignment(patches, std::move(candidates), options).Solve();
+  if (map.planar) DropFurnitureFronts(patches, assigned);
 
   std::vector<Match> matches = MatchLevels(map, plan, T_plan_map, options);
   for (size_t i = 0; i < patches.size(); ++i) {

@@ -22,6 +22,8 @@ struct CouplingOptions {
   // Gate, relative to where the wall is believed to stand. Below the depth of kitchen units and wardrobes, 0.55 to 0.6 m: where they hide a
   // whole wall, their fronts must not pass for it.
   double max_offset_m = 0.5;
+  // The same in maps of planar lasers, which do not see over furniture: below the depth of shelves.
+  double planar_max_offset_m = 0.2;
   double max_yaw_rad = 0.35;
   double max_level_offset_m = 0.25; // the same for floors and ceilings
   double min_overlap_ratio = 0.3;   // of the shorter of the two, along the wall

@@ -15,6 +15,8 @@ namespace {
 // Walls seen while the robot turned are bent by motion that could not be taken out: by some centimetres and degrees.
 constexpr double kUntimedShare = 0.1, kUntimedFloor_m = 0.05, kUntimedFloor_rad = 0.05;
 
+constexpr double kPlanarPlaceSigma_m = 0.05;  // of a planar map's place by its rays
+
 // A registered scan by the keyframe that was the newest when it came: it follows that keyframe through every later solve.
 struct ScanPlace {
   double stamp_s = 0;
@@ -49,6 +51,7 @@ struct GraphEstimator::Impl {
   MatchResult match;
   JointResult joint;
   Eigen::Isometry3d T_plan_map = Eigen::Isometry3d::Identity();  // of the last fix
+  Eigen::Isometry3d T_by_rays = Eigen::Isometry3d::Identity();   // as the matcher found it
   bool ever_fixed = false;
   int odometry_map = 0;
   size_t num_scans = 0, num_untimed = 0;  // with points
@@ -85,7 +88,7 @@ struct GraphEstimator::Impl {
       case MatchResult::Verdict::kUnique: break;
     }
     ForgetFix();
-    T_plan_map = match.hypotheses.front().T_plan_map;
+    T_plan_map = T_by_rays = match.hypotheses.front().T_plan_map;
     for (size_t i = 1; i < match.hypotheses.size(); ++i) rivals.push_back(match.hypotheses[i].T_plan_map);
     verdict = Verdict::kLocalized;
     ever_fixed = true;
@@ -94,6 +97,11 @@ struct GraphEstimator::Impl {
 
   [[nodiscard]] JointOptions SolverOptions() const {
     JointOptions out = options.joint;
+    // Half of the walls that a planar laser sees are furniture, which may agree with each other better than with the walls. The rays know.
+    if (mapper.graph().planar) {
+      out.place = T_by_rays;
+      out.place_sigma_m = kPlanarPlaceSigma_m;
+    }
     if (num_untimed > kUntimedShare * static_cast<double>(num_scans)) {
       out.observation_floor_m = std::max(out.observation_floor_m, kUntimedFloor_m);
       out.observation_floor_rad = std::max(out.observation_floor_rad, kUntimedFloor_rad);
@@ -128,11 +136,13 @@ struct GraphEstimator::Impl {
     mapper.OnPosesChanged();
   }
 
-  // Between two solves over everything, which cost more the larger the map is, only the newest keyframes are laid on it.
+  // Between two solves over everything, which cost more the larger the map is, only the newest keyframes are laid on it; those of a planar laser
+  // stay where odometry has them.
   void Solve() {
     size_t kept = 0;
     for (const Keyframe& keyframe : mapper.graph().keyframes) kept += !keyframe.merged;
     if (static_cast<double>(num_keyframes - solved_all_at) >= options.solve_all_growth * static_cast<double>(kept)) return Optimize(false);
+    if (mapper.graph().planar) return;
     const std::vector<Eigen::Isometry3d> poses = OptimizeWindow(mapper.graph(), static_cast<size_t>(options.window_keyframes), SolverOptions());
     if (poses.empty()) return Optimize(false);
     std::vector<Keyframe>& keyframes = mapper.mutable_graph().keyframes;
@@ -248,6 +258,7 @@ GraphState GraphEstimator::Add(const RegisteredScan& scan, bool hold) {
   s.odometry_map = out.odometry_map = scan.odometry_map;
   // Scans that registration could not place stay out of the map, which still lies where it did.
   if (o.ok || o.restarted) {
+    s.mapper.HoldPoses(s.placed());
     const bool grew = s.mapper.AddScan(o.deskewed, o.T_odom_lidar, o.planar ? std::optional(o.step_covariance) : std::nullopt);
     out.timing.push_back({"mapping", watch.Lap()});
     if (grew) out.solve_held = s.OnKeyframe(hold, out.timing);

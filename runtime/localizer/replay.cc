@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <limits>
 #include <thread>
 #include <utility>
 
@@ -38,11 +39,19 @@ class Closer {
   BoundedQueue<T>& queue_;
 };
 
-size_t CountScans(const Recording& recording, double max_duration_s) {
-  if (!(max_duration_s > 0)) return recording.size();
-  size_t count = 0;
-  while (count < recording.size() && recording.stamp_s(count) - recording.stamp_s(0) <= max_duration_s) ++count;
-  return count;
+// The scans to replay: [first, last).
+struct ScanRange {
+  size_t first = 0, last = 0;
+};
+
+ScanRange ScansOf(const Recording& recording, const ReplayOptions& options) {
+  const auto since_start_s = [&](size_t i) { return recording.stamp_s(i) - recording.stamp_s(0); };
+  ScanRange out;
+  while (out.first < recording.size() && since_start_s(out.first) < options.start_s) ++out.first;
+  out.last = out.first;
+  const double end_s = options.max_duration_s > 0 ? options.start_s + options.max_duration_s : std::numeric_limits<double>::infinity();
+  while (out.last < recording.size() && since_start_s(out.last) <= end_s) ++out.last;
+  return out;
 }
 
 ReplayedScan Describe(const ReadScan& read) {
@@ -76,11 +85,11 @@ bool Conclude(OdometryScan& scan, Localizer& localizer, const ReplaySink& sink) 
 
 int NumThreads(int asked) { return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
-// Reads the first `count` scans into `queue` until it is closed.
-std::jthread StartReading(const Recording& recording, size_t count, BoundedQueue<ReadScan>& queue) {
-  return std::jthread([&recording, count, &queue] {
+// Reads the scans into `queue` until it is closed.
+std::jthread StartReading(const Recording& recording, ScanRange scans, BoundedQueue<ReadScan>& queue) {
+  return std::jthread([&recording, scans, &queue] {
     const Closer closer(queue);
-    for (size_t i = 0; i < count; ++i) {
+    for (size_t i = scans.first; i < scans.last; ++i) {
       if (!queue.Push({i, recording.Read(i)})) return;
     }
   });
@@ -91,16 +100,17 @@ std::jthread StartReading(const Recording& recording, size_t count, BoundedQueue
 std::string ReplayOptions::Check() const {
   if (threads < 0) return "ReplayOptions.threads = " + std::to_string(threads) + "; must be >= 0";
   if (!(rate >= 0 && rate <= 1000)) return "ReplayOptions.rate = " + std::to_string(rate) + "; must be in [0, 1000]";
+  if (!(start_s >= 0)) return "ReplayOptions.start_s = " + std::to_string(start_s) + "; must be >= 0";
   if (!(max_duration_s >= 0)) return "ReplayOptions.max_duration_s = " + std::to_string(max_duration_s) + "; must be >= 0";
   return online.Check();
 }
 
 void ReplayOffline(const Recording& recording, const ReplayOptions& options, Localizer& localizer, const ReplaySink& sink) {
-  const size_t count = CountScans(recording, options.max_duration_s);
+  const ScanRange scans = ScansOf(recording, options);
   const int num_threads = NumThreads(options.threads);
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<size_t>(num_threads));
   if (num_threads == 1) {
-    for (size_t i = 0; i < count; ++i) {
+    for (size_t i = scans.first; i < scans.last; ++i) {
       OdometryScan scan = Register(recording, options, {i, recording.Read(i)}, localizer);
       if (!Conclude(scan, localizer, sink)) return;
     }
@@ -109,10 +119,10 @@ void ReplayOffline(const Recording& recording, const ReplayOptions& options, Loc
   BoundedQueue<ReadScan> read(kScansAhead);
   BoundedQueue<OdometryScan> registered(kScansAhead);
   std::jthread reading;
-  if (num_threads > 2) reading = StartReading(recording, count, read);
+  if (num_threads > 2) reading = StartReading(recording, scans, read);
   const std::jthread odometry([&] {
     const Closer closer(registered);
-    for (size_t i = 0; i < count; ++i) {
+    for (size_t i = scans.first; i < scans.last; ++i) {
       const std::optional<ReadScan> next = num_threads > 2 ? read.Pop() : ReadScan{i, recording.Read(i)};
       if (!next || !registered.Push(Register(recording, options, *next, localizer))) return;
     }
@@ -127,7 +137,7 @@ void ReplayOffline(const Recording& recording, const ReplayOptions& options, Loc
 void ReplayPaced(const Recording& recording, const ReplayOptions& options, OnlineLocalizer& localizer, const ReplaySink& sink) {
   using Clock = std::chrono::steady_clock;
   BoundedQueue<ReadScan> read(kScansAhead);
-  const std::jthread reading = StartReading(recording, CountScans(recording, options.max_duration_s), read);
+  const std::jthread reading = StartReading(recording, ScansOf(recording, options), read);
   const Closer closer(read);
   Clock::time_point due = Clock::now();
   std::optional<double> last_s;

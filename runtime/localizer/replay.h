@@ -14,7 +14,8 @@ namespace plumb::runtime {
 struct ReplayOptions {
   int threads = 0;             // offline: 1 does one thing after another, 2 runs the graph beside the rest, more read ahead as well; 0: all the machine has
   double rate = 0;             // 0: offline, as fast as it goes. Else times real time: a scan is given when its sweep has ended, and the graph gets what time there is
-  double max_duration_s = 0;   // stops after this much of the recording; 0: all of it
+  double start_s = 0;          // leaves out this much of the recording at its beginning
+  double max_duration_s = 0;   // stops after this much of the rest; 0: all of it
   bool given_odometry = true;  // use the recording's
   OnlineOptions online;
   [[nodiscard]] std::string Check() const;  // empty, or the field, its value and the rule

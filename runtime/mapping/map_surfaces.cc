@@ -88,7 +88,7 @@ TrackedSurface SurfaceOf(const Segment& segment, const Keyframe& keyframe) {
   s.observations = {{keyframe.id, segment.stats}};
   const PlaneStats sum = segment.stats.Transformed(keyframe.T_map_kf);
   s.num_points = sum.count();
-  SurfacePatch patch(keyframe.id, keyframe.T_map_kf, s.plane, s.kind, sum.centroid());
+  SurfacePatch patch(keyframe.id, keyframe.T_map_kf, s.plane, s.kind, sum.centroid(), segment.cell_height_m);
   for (const Eigen::Vector3f& cell : segment.cells) patch.Mark(keyframe.T_map_kf * cell.cast<double>());
   TrackedSurface tracked{std::move(s), {std::move(patch), sum}};
   UpdateExtent(tracked.track, &tracked.surface);

@@ -94,6 +94,7 @@ bool Mapper::CloseWindow() {
     keyframe.turned_rad = last.turned_rad + moved.rad;
   }
   graph_.keyframes.push_back(std::move(keyframe));
+  graph_.planar = window.planar();
   const std::vector<Segment> segments = window.planar() ? ExtractLineSegments(window, options_) : ExtractSegments(window, options_);
   for (const Segment& segment : segments) AddSegment(segment, graph_.keyframes.back());
   MergeDuplicates();
@@ -126,7 +127,9 @@ void Mapper::CloseLoops(const KeyframeWindow& window) {
     poses.push_back(Leveled(keyframe.T_map_kf));
     planar.push_back(poses.back().pose);
   }
-  if (!loops_.Add(MakePlanarScan(prepared, poses.back().leveling, {}, kPointShare * options_.plane_sigma_m), planar)) return;
+  const bool closed = loops_.Add(MakePlanarScan(prepared, poses.back().leveling, {}, kPointShare * options_.plane_sigma_m), planar);
+  graph_.edges = loops_.edges();
+  if (!closed || poses_held_) return;
   const std::vector<Pose2> solved = SolvePoseGraph(planar, loops_.edges());
   bool settled = true;
   for (size_t i = 0; i < solved.size(); ++i) {

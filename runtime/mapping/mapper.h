@@ -25,6 +25,8 @@ class Mapper {
   // `planar_step`: of a planar laser (OdometryResult::planar), the covariance of (x, y, yaw) of the motion since the last scan. Its scans see walls
   // only, as lines (planar_segmentation.h), and the loops they make are closed here (loop_closure.h).
   bool AddScan(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar, const std::optional<Eigen::Matrix3d>& planar_step = std::nullopt);
+  // While the plan holds the keyframes' poses, loops are found but move nothing: they know nothing of the plan and would pull the map off it.
+  void HoldPoses(bool hold) { poses_held_ = hold; }
   // Makes a keyframe of what AddScan() has gathered since the last one, at a recording's end. True if the graph has grown.
   bool Flush();
 
@@ -53,6 +55,7 @@ class Mapper {
   std::vector<SurfaceTrack> tracks_;  // of each surface
   std::optional<KeyframeWindow> window_;
   LoopCloser loops_;
+  bool poses_held_ = false;
 };
 
 }  // namespace plumb::runtime

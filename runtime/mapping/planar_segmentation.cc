@@ -144,6 +144,7 @@ Segment SegmentOf(const Line& line, const Eigen::Matrix3d& leveling) {
     cells[cell] += Eigen::Vector3d(p.x(), p.y(), 1);
   }
   segment.stats.C *= 0.5;
+  segment.cell_height_m = kLineHeight_m;
   for (const Eigen::Vector3d& cell : cells) segment.cells.push_back(lifted(cell.head<2>() / cell.z(), 0).cast<float>());
   return segment;
 }

@@ -6,17 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "runtime/odometry/planar/pose2.h"
+#include "runtime/mapping/sgraph.h"
 
 namespace plumb::runtime {
-
-// Pose of `to` in `from` as measured; covariance of (x, y, yaw) in the axes of `from`.
-struct PoseEdge {
-  uint32_t from = 0, to = 0;
-  Pose2 T_from_to;
-  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
-  bool loop = false;  // may be wrong: a robust loss lets it go
-};
 
 // The poses that agree best with the edges, the first held; started from `poses`. Levenberg-Marquardt with a sparse factorisation:
 // about a millisecond per hundred poses.

@@ -7,6 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "runtime/odometry/planar/pose2.h"
+
 namespace plumb::runtime {
 
 // Sum of homogeneous outer products of points, sum [p;1][p;1]^T: all that point-to-plane residuals need (runtime/METHOD.md, pi-factor).
@@ -46,6 +48,7 @@ struct Segment {
   Plane plane;
   PlaneStats stats;                    // of all points in the band about the plane, not only of the thinned ones
   std::vector<Eigen::Vector3f> cells;  // mean point of every occupied 0.1 m x 0.1 m cell
+  double cell_height_m = 0.1;          // of the surface that a cell stands for; more in planar scans, which see a wall on one line
 };
 
 struct Observation {
@@ -64,8 +67,8 @@ struct MapSurface {
   // band. Floors and ceilings: lowest and highest x and y; the heights are both that of the centroid.
   Eigen::Vector2d start = Eigen::Vector2d::Zero(), end = Eigen::Vector2d::Zero();
   double z_min_m = 0, z_max_m = 0;
-  // Cells of 0.1 m x 0.1 m of the surface that hold points: what was really seen of it. area_m2 = 0.01 * number of cells. Kept once per
-  // surface, fixed to the first keyframe that saw it: when poses change, all cells follow that keyframe.
+  // Cells of 0.1 m x 0.1 m of the surface that hold points: what was really seen of it. area_m2 = number of cells * 0.1 m * Segment::cell_height_m.
+  // Kept once per surface, fixed to the first keyframe that saw it: when poses change, all cells follow that keyframe.
   double area_m2 = 0;
   // Walls: where those cells are, (distance from `start` towards `end`, height).
   std::vector<Eigen::Vector2f> cells;
@@ -90,8 +93,20 @@ struct Keyframe {
   std::optional<Merged> merged;
 };
 
+// Pose of `to` in `from` as measured; covariance of (x, y, yaw) in the axes of `from`.
+struct PoseEdge {
+  uint32_t from = 0, to = 0;
+  Pose2 T_from_to;
+  Eigen::Matrix3d covariance = Eigen::Matrix3d::Identity();
+  bool loop = false;  // may be wrong: a robust loss lets it go
+};
+
 struct SGraph {
+  // Made by a planar laser: walls are seen on one line, in the plane of the keyframes, whose height above the floor is not known; there are no
+  // floors and ceilings, and height, roll and pitch of keyframes are conventions.
+  bool planar = false;
   std::vector<Keyframe> keyframes;   // ids are stable; merged ones keep their slot, without points
+  std::vector<PoseEdge> edges;  // between keyframes, of their levelled frames; by a planar laser: odometry's steps and the loops
   std::vector<MapSurface> surfaces;  // ids are stable; merged ones keep their slot with no observations
 };
 

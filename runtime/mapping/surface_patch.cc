@@ -7,8 +7,9 @@
 
 namespace plumb::runtime {
 
-SurfacePatch::SurfacePatch(uint32_t keyframe, const Eigen::Isometry3d& T_map_kf, const Plane& plane, SurfaceKind kind, const Eigen::Vector3d& at)
-    : keyframe_(keyframe), kind_(kind) {
+SurfacePatch::SurfacePatch(uint32_t keyframe, const Eigen::Isometry3d& T_map_kf, const Plane& plane, SurfaceKind kind, const Eigen::Vector3d& at,
+                           double cell_height_m)
+    : keyframe_(keyframe), kind_(kind), cell_height_m_(cell_height_m) {
   lo_.setConstant(std::numeric_limits<double>::infinity());
   hi_ = -lo_;
   anchor_kf_ = T_map_kf.inverse() * at;
@@ -55,6 +56,6 @@ double SurfacePatch::ShareCovered(const SurfacePatch& b, double distance_m) cons
   return static_cast<double>(covered) / static_cast<double>(b.cells_.size());
 }
 
-double SurfacePatch::area_m2() const { return kCell_m * kCell_m * static_cast<double>(cells_.size()); }
+double SurfacePatch::area_m2() const { return kCell_m * cell_height_m_ * static_cast<double>(cells_.size()); }
 
 }  // namespace plumb::runtime

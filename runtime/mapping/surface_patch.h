@@ -14,8 +14,9 @@ namespace plumb::runtime {
 // so that the patch follows when the optimizer moves it; everything that is returned is in the map frame.
 class SurfacePatch {
  public:
-  // `keyframe` is the first that saw the surface and T_map_kf its pose; `at` a point near the plane.
-  SurfacePatch(uint32_t keyframe, const Eigen::Isometry3d& T_map_kf, const Plane& plane, SurfaceKind kind, const Eigen::Vector3d& at);
+  // `keyframe` is the first that saw the surface and T_map_kf its pose; `at` a point near the plane; `cell_height_m` as in Segment.
+  SurfacePatch(uint32_t keyframe, const Eigen::Isometry3d& T_map_kf, const Plane& plane, SurfaceKind kind, const Eigen::Vector3d& at,
+               double cell_height_m);
 
   // Marks the cell of p and extends the bounds to p.
   void Mark(const Eigen::Vector3d& p);
@@ -44,6 +45,7 @@ class SurfacePatch {
  private:
   uint32_t keyframe_;
   SurfaceKind kind_;
+  double cell_height_m_;
   Plane plane_;
   Eigen::Vector3d anchor_kf_, along_kf_, normal_kf_;  // keyframe frame
   Eigen::Vector3d anchor_, along_, across_;           // map frame

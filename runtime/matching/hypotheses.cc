@@ -16,13 +16,14 @@ constexpr double kYawPeakWidth_rad = 0.06;   // over which a peak's centre is av
 constexpr double kYawGate_rad = 0.09;        // a pair votes for a yaw this close to its own
 constexpr double kYawSuppression_rad = 0.07;
 constexpr double kMinOverlap_m = 0.3;
-constexpr double kMinHeightOverlap_m = 0.3;
+constexpr double kMinHeightOverlap_m = 0.3;    // or half of the wall's, if that is less
 constexpr double kTypicalSensorHeight_m = 0.6;
 constexpr double kPeakRatio = 0.35;          // of the highest cell
 constexpr double kMaxCells = 4e6;            // of one grid; larger plans get larger cells
 
 bool HeightsOverlap(const MapWall& wall, double z_m, const PlanFace& face) {
-  return std::min(wall.z_max_m + z_m, face.z_max_m) - std::max(wall.z_min_m + z_m, face.z_min_m) > kMinHeightOverlap_m;
+  const double overlap_m = std::min(wall.z_max_m + z_m, face.z_max_m) - std::max(wall.z_min_m + z_m, face.z_min_m);
+  return overlap_m > std::min(kMinHeightOverlap_m, 0.5 * (wall.z_max_m - wall.z_min_m));
 }
 
 double YawOf(const MapWall& wall, const PlanFace& face) {

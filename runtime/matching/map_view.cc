@@ -192,6 +192,7 @@ double RangeBackground::Below(double range_m) const {
 
 MapView ViewMap(const SGraph& map, const MatcherOptions& options) {
   MapView view;
+  view.planar = map.planar;
   view.walls = UprightWalls(map);
   Eigen::Vector2d moment = Eigen::Vector2d::Zero();
   for (const MapWall& w : view.walls) {

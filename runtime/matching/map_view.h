@@ -37,6 +37,7 @@ class RangeBackground {
 
 // Frame: the map's, shifted by center_m in x and y.
 struct MapView {
+  bool planar = false;  // as SGraph
   Eigen::Vector2d center_m = Eigen::Vector2d::Zero();  // map frame: middle of the walls, weighted by length
   std::vector<MapWall> walls;                          // at least 0.4 m long and upright
   double wall_length_m = 0;                            // of all of them

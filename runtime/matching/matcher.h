@@ -35,7 +35,8 @@ struct MatcherOptions {
   double accept_scale_error = 0.025;
   // Rays vouch for a place that far fewer walls would not: in furnished or much deviating buildings. They do where this share of them ends on
   // what the plan has there, and the place leads every rival, the plan's mirror image and "outside" by this many nats, and by this much of its
-  // own log-likelihood unless the lead is sure or nearly all rays end where they should.
+  // own log-likelihood unless the lead is sure or nearly all rays end where they should. Furniture in the way of a planar laser, where half of
+  // the rays of an office end, says nothing: of these maps' rays only those count that nothing stops in front.
   double vouch_explained_ratio = 0.65;
   double vouch_lead_nats = 30;
   double vouch_lead_ratio = 0.3;
@@ -56,7 +57,7 @@ struct Hypothesis {
   // What speaks for it and against it: planes of the plan that agree, their share of the map's walls, shares of the rays that ended on what the
   // plan has there and that went through planned walls.
   int consistent_planes = 0;
-  double consistent_ratio = 0, explained_ratio = 0, through_ratio = 0;
+  double consistent_ratio = 0, explained_ratio = 0, through_ratio = 0, in_front_ratio = 0;
 };
 
 struct MatchResult {

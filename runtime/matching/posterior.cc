@@ -35,6 +35,7 @@ Hypothesis ToHypothesis(const Candidate& candidate, const MapView& map, const Ei
   h.consistent_ratio = candidate.fit.consistent_ratio;
   h.explained_ratio = candidate.rays.explained_ratio;
   h.through_ratio = candidate.rays.through_ratio;
+  h.in_front_ratio = candidate.rays.in_front_ratio;
   SetSigmas(candidate.fit.information, h);
   return h;
 }
@@ -70,12 +71,13 @@ int RequiredPlanes(size_t num_rooms, const MatcherOptions& options) {
   return options.accept_min_planes + static_cast<int>(std::lround(std::log10(std::max<double>(1, static_cast<double>(num_rooms)))));
 }
 
-bool RaysVouch(const std::vector<Candidate>& sorted, double mirrored, const MatcherOptions& options) {
+bool RaysVouch(const std::vector<Candidate>& sorted, double mirrored, bool planar, const MatcherOptions& options) {
   const RayEvidence& best = sorted.front().rays;
+  const double counted_ratio = planar ? 1 - best.in_front_ratio : 1;
   double rival = std::max(0.0, mirrored);
   for (size_t i = 1; i < sorted.size(); ++i) rival = std::max(rival, sorted[i].rays.log_likelihood);
   const double lead = best.log_likelihood - rival;
-  return best.explained_ratio >= options.vouch_explained_ratio && lead >= options.vouch_lead_nats &&
+  return best.explained_ratio >= options.vouch_explained_ratio * counted_ratio && lead >= options.vouch_lead_nats &&
          (lead >= options.vouch_lead_ratio * best.log_likelihood || lead >= options.vouch_sure_nats ||
           best.explained_ratio >= options.vouch_nearly_all_ratio);
 }
@@ -120,7 +122,7 @@ MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, con
   }
   const size_t n = std::min(sorted.size(), static_cast<size_t>(options.keep_hypotheses));
   for (size_t i = 0; i < n; ++i) result.hypotheses.push_back(ToHypothesis(sorted[i], map, plan.origin));
-  const bool rays_vouch = RaysVouch(sorted, wrong.mirrored, options);
+  const bool rays_vouch = RaysVouch(sorted, wrong.mirrored, map.planar, options);
   if (rays_vouch) SetSigmas(sorted.front().fit.place_information, result.hypotheses.front());
   SetProbabilities(result, std::max(0.0, wrong.mirrored));
   const Hypothesis& best = result.hypotheses.front();

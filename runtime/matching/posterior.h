@@ -36,8 +36,8 @@ struct WrongPlans {
 // Planes that must agree in a plan of so many rooms: the more there are, the more of them look alike by chance.
 [[nodiscard]] int RequiredPlanes(size_t num_rooms, const MatcherOptions& options);
 
-// Whether the rays alone tell the place (see MatcherOptions). `sorted` must not be empty.
-[[nodiscard]] bool RaysVouch(const std::vector<Candidate>& sorted, double mirrored, const MatcherOptions& options);
+// Whether the rays alone tell the place (see MatcherOptions) of a map, by a planar laser or another. `sorted` must not be empty.
+[[nodiscard]] bool RaysVouch(const std::vector<Candidate>& sorted, double mirrored, bool planar, const MatcherOptions& options);
 
 // Whether the walls tell the building's size to within accept_scale_error.
 [[nodiscard]] bool WallsTellScale(const WallFit& fit, const MatcherOptions& options);

@@ -25,7 +25,7 @@ double Gaussian(double x, double sigma) {
 
 struct RayJudgement {
   double log_ratio = 0;
-  bool judged = false, explained = false, through = false;
+  bool judged = false, explained = false, through = false, in_front = false;
 };
 
 class Judge {
@@ -59,6 +59,7 @@ class Judge {
     result.explained = ratio > 1;
     if (ray.range_m < furthest_m) {
       ratio += kShort / map_.background.Below(furthest_m) + kRandom;
+      result.in_front = !result.explained;
     } else if (beyond_m > 3 * model_.deviation_sigma_m && !result.explained) {
       if (plan_.NearOpening(origin + furthest_m * direction, kOpeningMargin_m)) return {};
       ratio += kThrough;
@@ -105,7 +106,7 @@ RayEvidence JudgeRays(const PlanIndex& plan, const MapView& map, const PlanarPos
   RayEvidence evidence;
   double sum = 0;
   size_t used = 0;
-  int explained = 0, through = 0;
+  int explained = 0, through = 0, in_front = 0;
   for (size_t i = 0; i < map.rays.size(); i += stride) {
     const RayJudgement j = judge(map.rays[i]);
     ++used;
@@ -113,6 +114,7 @@ RayEvidence JudgeRays(const PlanIndex& plan, const MapView& map, const PlanarPos
     evidence.judged += j.judged;
     explained += j.explained;
     through += j.through;
+    in_front += j.in_front;
   }
   if (used == 0) return evidence;
   const double scale = static_cast<double>(map.rays.size()) / static_cast<double>(used);
@@ -120,6 +122,7 @@ RayEvidence JudgeRays(const PlanIndex& plan, const MapView& map, const PlanarPos
   evidence.log_likelihood = scale * (sum - kForeignGain * static_cast<double>(used)) / options.rays_per_independent;
   if (evidence.judged > 0) {
     evidence.explained_ratio = static_cast<double>(explained) / evidence.judged;
+    evidence.in_front_ratio = static_cast<double>(in_front) / evidence.judged;
     evidence.through_ratio = static_cast<double>(through) / evidence.judged;
   }
   return evidence;

@@ -13,6 +13,7 @@ struct RayEvidence {
   double log_likelihood = 0;   // nats, relative to "outside the plan"; correlation taken out
   double explained_ratio = 0;  // of the judged rays: ended on what the plan has there
   double through_ratio = 0;    // of the judged rays: went through a wall of the plan
+  double in_front_ratio = 0;   // of the judged rays: ended on something in front of what the plan has there
   int judged = 0;              // rays for which the plan has something to say
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,8 @@ struct JointOptions {
   double thickness_sigma_m = 0.01;     // prior of a wall's thickness error
   double tilt_sigma_rad = 0.003;       // prior of a wall's tilt
   double level_sigma_m = 0.015;        // prior of a floor's or ceiling's height error
+  std::optional<Eigen::Isometry3d> place;  // T_plan_map as known before the walls are asked; none: the given one ...
+  double place_sigma_m = 1.0;          // ... and how well
   int em_rounds = 4;                   // of at least one; stops early when responsibilities settle
   int max_iterations = 30;             // per round
   bool covariances = true;             // off: WallEstimate::cov and cov_xy_yaw are conservative constants, and the call is faster

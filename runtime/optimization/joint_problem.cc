@@ -2,10 +2,15 @@
 
 #include <ceres/ceres.h>
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
+#include "runtime/odometry/planar/planar_scan.h"
 #include "runtime/optimization/level_votes.h"
 #include "runtime/optimization/odometry_step.h"
 #include "runtime/optimization/wall_measurement.h"
@@ -14,6 +19,44 @@ namespace plumb::runtime {
 namespace {
 
 using PoseManifold = ceres::ProductManifold<ceres::EigenQuaternionManifold, ceres::EuclideanManifold<3>>;
+// Poses that turn about z and move in x and y only: of a planar laser, which tells nothing else. Tangent: yaw, x, y.
+class LevelPoseManifold final : public ceres::Manifold {
+ public:
+  [[nodiscard]] int AmbientSize() const override { return kPoseSize; }
+  [[nodiscard]] int TangentSize() const override { return 3; }
+
+  bool Plus(const double* x, const double* delta, double* out) const override {
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(delta[0], Eigen::Vector3d::UnitZ()));
+    Eigen::Map<Eigen::Quaterniond> turned(out);
+    turned = turn * Eigen::Map<const Eigen::Quaterniond>(x);
+    out[4] = x[4] + delta[1];
+    out[5] = x[5] + delta[2];
+    out[6] = x[6];
+    return true;
+  }
+  bool PlusJacobian(const double* x, double* jacobian) const override {
+    Eigen::Map<Eigen::Matrix<double, kPoseSize, 3, Eigen::RowMajor>> J(jacobian);
+    J.setZero();
+    J.col(0).head<4>() << -0.5 * x[1], 0.5 * x[0], 0.5 * x[3], -0.5 * x[2];  // (0, 0, 1/2, 0) * q
+    J(4, 1) = J(5, 2) = 1;
+    return true;
+  }
+  bool Minus(const double* y, const double* x, double* delta) const override {
+    const Eigen::Quaterniond turn = Eigen::Map<const Eigen::Quaterniond>(y) * Eigen::Map<const Eigen::Quaterniond>(x).conjugate();
+    delta[0] = 2 * std::atan2(turn.z(), turn.w());
+    delta[1] = y[4] - x[4];
+    delta[2] = y[5] - x[5];
+    return true;
+  }
+  bool MinusJacobian(const double* x, double* jacobian) const override {
+    Eigen::Map<Eigen::Matrix<double, 3, kPoseSize, Eigen::RowMajor>> J(jacobian);
+    J.setZero();
+    J.row(0).head<4>() << -2 * x[1], 2 * x[0], 2 * x[3], -2 * x[2];
+    J(1, 4) = J(2, 5) = 1;
+    return true;
+  }
+};
+
 using PlaneManifold = ceres::ProductManifold<ceres::SphereManifold<3>, ceres::EuclideanManifold<1>>;
 
 constexpr double kAnchorSigma_m = 1e-4, kAnchorSigma_rad = 1e-4;
@@ -21,7 +64,7 @@ constexpr double kAnchorSigma_m = 1e-4, kAnchorSigma_rad = 1e-4;
 constexpr std::array<double, kPlaceSize> kPlaceWeight{0.1, 0.1, 0.1, 1.0};
 constexpr double kHeldHeight_m = 0.005;  // without floor or ceiling, walls a thousandth off plumb would drag the height along by metres
 constexpr std::array<double, kPlaneSize> kPlaneWeight{1.0, 1.0, 1.0, 0.1};
-constexpr double kOdometryLoss = 3.0;  // in sigmas
+constexpr double kOdometryLoss = 3.0, kLoopLoss = 2.0;  // in sigmas
 
 template <class Functor, int kResiduals, int... kBlocks>
 auto* Cost(const Functor& functor) {
@@ -40,20 +83,33 @@ ceres::Problem::Options SharedLossesAndManifolds() {
 struct JointProblem::Impl {
   Impl(const SGraph& map_in, const AGraph& plan_in, const std::vector<WallFrame>& frames_in, const JointOptions& options_in, JointState& state_in)
       : map(map_in), plan(plan_in), frames(frames_in), options(options_in), state(state_in), observation_loss(options.observation_loss),
-        odometry_loss(kOdometryLoss), floor_loss(kFloorLoss), ceiling_loss(kCeilingLoss), level_weight{1 / options.level_sigma_m}, bias_weight{1 / options.bias_sigma_m},
+        odometry_loss(kOdometryLoss), loop_loss(kLoopLoss), floor_loss(kFloorLoss), ceiling_loss(kCeilingLoss), level_weight{1 / options.level_sigma_m}, bias_weight{1 / options.bias_sigma_m},
         problem(SharedLossesAndManifolds()) {}
 
   void AddKeyframes() {
+    ceres::Manifold* const manifold = map.planar ? static_cast<ceres::Manifold*>(&level_pose_manifold) : &pose_manifold;
     for (size_t i = 0; i < map.keyframes.size(); ++i) {
-      if (!map.keyframes[i].merged) problem.AddParameterBlock(state.poses[i].data(), kPoseSize, &pose_manifold);
+      if (!map.keyframes[i].merged) problem.AddParameterBlock(state.poses[i].data(), kPoseSize, manifold);
     }
     problem.AddResidualBlock(Cost<AnchorResidual, 6, kPoseSize>({Anchor(), kAnchorSigma_m, kAnchorSigma_rad, options.gravity_sigma_rad}), nullptr,
                              state.poses[0].data());
+    if (map.planar) return AddEdges();
     for (size_t i = 1, last = 0; i < map.keyframes.size(); ++i) {
       if (map.keyframes[i].merged) continue;
       problem.AddResidualBlock(Cost<OdometryResidual, 6, kPoseSize, kPoseSize>(OdometryStep(map.keyframes[last], map.keyframes[i], options)), &odometry_loss,
                                state.poses[last].data(), state.poses[i].data());
       last = i;
+    }
+  }
+
+  // What odometry and loops say of a planar laser's motion, each with its own covariance.
+  void AddEdges() {
+    const auto unlevel = [&](uint32_t keyframe) { return Eigen::Quaterniond(Leveled(map.keyframes[keyframe].T_map_kf).leveling).conjugate(); };
+    for (const PoseEdge& edge : map.edges) {
+      const Eigen::Matrix3d sqrt_information = edge.covariance.inverse().llt().matrixU();
+      problem.AddResidualBlock(
+          Cost<LevelStepResidual, 3, kPoseSize, kPoseSize>({edge.T_from_to, sqrt_information, unlevel(edge.from), unlevel(edge.to)}),
+          edge.loop ? static_cast<ceres::LossFunction*>(&loop_loss) : &odometry_loss, state.poses[edge.from].data(), state.poses[edge.to].data());
     }
   }
 
@@ -141,9 +197,11 @@ struct JointProblem::Impl {
   JointState& state;
   ceres::CauchyLoss observation_loss;
   ceres::HuberLoss odometry_loss;
+  ceres::CauchyLoss loop_loss;
   ceres::CauchyLoss floor_loss, ceiling_loss;
   std::vector<std::unique_ptr<ceres::LossFunction>> level_losses;
   PoseManifold pose_manifold;
+  LevelPoseManifold level_pose_manifold;
   PlaneManifold plane_manifold;
   std::vector<std::array<double, kNumWallParameters>> wall_weights;
   std::array<double, 1> level_weight, bias_weight;

@@ -14,7 +14,7 @@ namespace {
 
 using Correction = Eigen::Vector4d;  // x, y, yaw of the place about the walls' centre; range bias
 
-constexpr double kPlacePrior_m = 1.0, kPlacePrior_rad = 0.2;  // keeps what no wall tells near the given place
+constexpr double kPlacePrior_rad = 0.2;  // with the options' prior of position: keeps what no wall tells near the given place
 constexpr double kTruncation = 3.0;
 constexpr double kMinSine = 0.3;
 constexpr size_t kMaxProposers = 60, kMaxPolished = 12;
@@ -47,12 +47,15 @@ std::vector<Row> Rows(const std::vector<WallMeasurement>& walls, const std::vect
 
 class Seeder {
  public:
-  Seeder(std::vector<Row> rows, const JointOptions& options) : rows_(std::move(rows)), options_(options) {}
+  // `prior`: the place as known before.
+  Seeder(std::vector<Row> rows, const Correction& prior, const JointOptions& options) : rows_(std::move(rows)), prior_(prior), options_(options) {}
 
   Correction Solve() const {
     Correction best = Polish(Correction::Zero());
     double best_cost = Cost(best) - kKeepMargin_nats;
-    for (const Correction& proposal : Proposals()) {
+    std::vector<Correction> proposals = Proposals();
+    proposals.push_back(prior_);
+    for (const Correction& proposal : proposals) {
       const Correction x = Polish(proposal);
       const double cost = Cost(x);
       if (cost < best_cost - 1e-9) {
@@ -139,7 +142,7 @@ class Seeder {
   }
 
   Eigen::Vector4d PriorPrecision() const {
-    const double place = 1 / (kPlacePrior_m * kPlacePrior_m);
+    const double place = 1 / (options_.place_sigma_m * options_.place_sigma_m);
     return {place, place, 1 / (kPlacePrior_rad * kPlacePrior_rad), 1 / (options_.bias_sigma_m * options_.bias_sigma_m)};
   }
 
@@ -149,7 +152,7 @@ class Seeder {
     for (const double extra : kToleranceSchedule_m) {
       mixture.offset_tau0_m = std::min(std::hypot(options_.coupling.offset_tau0_m, extra), 0.5 * options_.coupling.offset_tau1_m);
       Eigen::Matrix4d lhs = PriorPrecision().asDiagonal();
-      Eigen::Vector4d rhs = Eigen::Vector4d::Zero();
+      Eigen::Vector4d rhs = PriorPrecision().cwiseProduct(prior_);
       for (const Row& r : rows_) {
         const Eigen::Vector2d precision = PriorInformation(AssessMixture(r.At(x), r.cov, mixture), mixture);
         Eigen::Matrix2d s = r.cov;
@@ -168,7 +171,8 @@ class Seeder {
   }
 
   double Cost(const Correction& x) const {
-    double sum = 0.5 * x.dot(PriorPrecision().cwiseProduct(x));
+    const Correction off = x - prior_;
+    double sum = 0.5 * off.dot(PriorPrecision().cwiseProduct(off));
     for (const Row& r : rows_) {
       sum += AssessMixture(r.At(x), r.cov, options_.coupling).cost_nats;
       sum += 0.5 * kTruncation * kTruncation * std::log1p(r.BiasError2(x) / (kTruncation * kTruncation));
@@ -177,6 +181,7 @@ class Seeder {
   }
 
   std::vector<Row> rows_;
+  Correction prior_;
   const JointOptions& options_;
 };
 
@@ -189,8 +194,13 @@ PlaceSeed SeedPlace(const std::vector<WallMeasurement>& walls, const std::vector
   for (const WallMeasurement& w : walls) center += frames[w.wall.index()].pivot.head<2>();
   center /= static_cast<double>(walls.size());
 
-  const Correction x = Seeder(Rows(walls, frames, center), options).Solve();
   const Eigen::Vector3d c(center.x(), center.y(), 0);
+  Correction prior = Correction::Zero();
+  if (options.place) {
+    const Eigen::Isometry3d off = *options.place * T_plan_map.inverse();
+    prior << (off * c - c).head<2>(), std::atan2(off.linear()(1, 0), off.linear()(0, 0)), 0;
+  }
+  const Correction x = Seeder(Rows(walls, frames, center), prior, options).Solve();
   const Eigen::Isometry3d turn = Eigen::Translation3d(c + Eigen::Vector3d(x[0], x[1], 0)) *
                                  Eigen::AngleAxisd(x[2], Eigen::Vector3d::UnitZ()) * Eigen::Translation3d(-c);
   return {turn * T_plan_map, x[3]};

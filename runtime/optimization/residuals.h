@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "runtime/coupling/wall_frame.h"
+#include "runtime/odometry/planar/pose2.h"
 #include "runtime/optimization/plane_view.h"
 
 namespace plumb::runtime {
@@ -92,6 +93,30 @@ struct OdometryResidual {
       r[i] = translation[i] / sigma_m;
       r[3 + i] = sign * 2.0 * turn.coeffs()[i] / sigma_rad;
     }
+    return true;
+  }
+};
+
+// Motion between two keyframes in the plane, of their levelled frames. R_map_kf = Rz(yaw) * leveling, which is held.
+struct LevelStepResidual {
+  Pose2 T_a_b;
+  Eigen::Matrix3d sqrt_information;  // of (x, y, yaw), in the axes of a
+  Eigen::Quaterniond unlevel_a, unlevel_b;  // inverse of leveling
+  template <class T>
+  bool operator()(const T* pose_a, const T* pose_b, T* r) const {
+    const Eigen::Map<const Eigen::Quaternion<T>> q_a(pose_a), q_b(pose_b);
+    const Eigen::Map<const Vec3<T>> t_a(pose_a + 4), t_b(pose_b + 4);
+    const Eigen::Quaternion<T> yaw_a = q_a * unlevel_a.cast<T>(), yaw_b = q_b * unlevel_b.cast<T>();
+    const Vec3<T> step = yaw_a.conjugate() * (t_b - t_a);
+    const Eigen::Quaternion<T> turn = yaw_a.conjugate() * yaw_b;
+    using std::cos;
+    using std::sin;
+    // Half the angle's error from the quaternion's z and w: exact to third order, and the same for q and -q.
+    const double half = 0.5 * T_a_b.yaw_rad;
+    const T s = turn.z() * cos(half) - turn.w() * sin(half), c = turn.w() * cos(half) + turn.z() * sin(half);
+    const Vec3<T> e(step.x() - T_a_b.t_m.x(), step.y() - T_a_b.t_m.y(), c < T(0) ? T(-2) * s : T(2) * s);
+    Eigen::Map<Vec3<T>> out(r);
+    out = sqrt_information.cast<T>() * e;
     return true;
   }
 };

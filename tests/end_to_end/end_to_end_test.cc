@@ -108,6 +108,15 @@ TEST_F(EndToEnd, ReportsAndChecks) {
   EXPECT_EQ(Plumb(folder_, "doctor rec/ > doctor.txt"), 0);
 }
 
+TEST_F(EndToEnd, FindsAPlanarLaserInFurnishedOffices) {
+  const std::string recording = PLUMB_SOURCE_DIR "/../shared/data/lidar/fr079";
+  if (!fs::exists(recording + "/truth.tum")) GTEST_SKIP() << "the recording fr079 is not there";
+  ASSERT_NE(Plumb(folder_, "compile '" + recording + "/asbuilt.dxf' -q -o offices.agraph"), 2);
+  EXPECT_EQ(Plumb(folder_, "localize offices.agraph '" + recording + "' --start 53 --max-duration 40 -q -o planar/"), 0);
+  EXPECT_EQ(Plumb(folder_, "evaluate planar/ --truth '" + recording + "' --json planar.json --require-localized-within 20 --require-ate 0.10"), 0);
+  EXPECT_TRUE(ReadJson(folder_ / "planar.json").at("in_plane").get<bool>());
+}
+
 TEST_F(EndToEnd, RefusesBadInputWithStatusTwo) {
   EXPECT_EQ(Plumb(folder_, "localize rec/odometry.tum rec/ -o other/ 2> error.txt"), 2);
   EXPECT_EQ(Plumb(folder_, "localize plan.agraph truth/ -o other/ 2> error.txt"), 2);

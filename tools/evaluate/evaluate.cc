@@ -9,6 +9,13 @@
 namespace plumb::tools {
 namespace {
 
+// Without what is not to be compared.
+runtime::Trajectory Comparable(runtime::Trajectory trajectory, const EvaluateOptions& options) {
+  if (!options.in_plane) return trajectory;
+  for (runtime::StampedPose& pose : trajectory) pose.T.translation().z() = 0;
+  return trajectory;
+}
+
 // Doubles near 1.7e9 s resolve 0.24 us, so stamps that were written by two printers are the same within a microsecond.
 long long Microseconds(double stamp_s) { return std::llround(stamp_s * 1e6); }
 
@@ -21,13 +28,13 @@ void CountVerdicts(const std::vector<VerdictRow>& verdicts, Evaluation& out) {
   }
 }
 
-void CountWrongFixes(const Run& run, const Truth& truth, const EvaluateOptions& options, Evaluation& out) {
+void CountWrongFixes(const Run& run, const runtime::Trajectory& truth, const EvaluateOptions& options, Evaluation& out) {
   std::map<long long, bool> localized;
   for (const VerdictRow& v : run.verdicts) localized[Microseconds(v.stamp_s)] = v.verdict == "localized";
-  for (const runtime::StampedPose& pose : run.online) {
+  for (const runtime::StampedPose& pose : Comparable(run.online, options)) {
     const auto verdict = localized.find(Microseconds(pose.stamp_s));
     if (verdict != localized.end() && !verdict->second) continue;
-    const auto at = runtime::InterpolatePose(truth.trajectory, pose.stamp_s, options.max_truth_gap_s);
+    const auto at = runtime::InterpolatePose(truth, pose.stamp_s, options.max_truth_gap_s);
     if (!at) continue;
     const PoseDifference d = Difference(pose.T, *at);
     if (d.distance_m <= options.wrong_fix_m && std::abs(d.yaw_rad) <= options.wrong_fix_rad) continue;
@@ -68,9 +75,11 @@ double Evaluation::max_rotation_error_deg() const {
 Evaluation Evaluate(const Run& run, const Truth& truth, const EvaluateOptions& options) {
   Evaluation out;
   CountVerdicts(run.verdicts, out);
-  CountWrongFixes(run, truth, options, out);
-  out.online = ComparePoses(run.online, truth.trajectory, options.max_truth_gap_s);
-  out.smoothed = ComparePoses(run.smoothed, truth.trajectory, options.max_truth_gap_s);
+  out.in_plane = options.in_plane;
+  const runtime::Trajectory trajectory = Comparable(truth.trajectory, options);
+  CountWrongFixes(run, trajectory, options, out);
+  out.online = ComparePoses(Comparable(run.online, options), trajectory, options.max_truth_gap_s);
+  out.smoothed = ComparePoses(Comparable(run.smoothed, options), trajectory, options.max_truth_gap_s);
   out.has_walls = truth.has_walls;
   if (truth.has_walls) out.walls = CompareWalls(truth, run.deviations, options.min_points);
   return out;

@@ -74,6 +74,7 @@ std::string EvaluationToText(const Evaluation& e) {
   fmt::format_to(write, "{:<22} {} of {} ({:.1f} %)\n", "scans localized", e.localized_scans, e.scans, 100 * e.localized_ratio());
   fmt::format_to(write, "{:<22} {}\n", "wrong fixes",
                  e.wrong_fixes == 0 ? "none" : fmt::format("{} scans, the first at {:.3f} s", e.wrong_fixes, *e.first_wrong_fix_s));
+  if (e.in_plane) fmt::format_to(write, "{:<22} in x and y: a planar laser does not know its height\n", "positions compared");
   out += PoseLine("poses as reported", e.online);
   out += PoseLine("poses smoothed", e.smoothed);
   if (e.has_walls) {
@@ -93,6 +94,7 @@ std::string EvaluationToJson(const Evaluation& e) {
   out["time_to_localize_s"] = e.time_to_localize_s ? Json(*e.time_to_localize_s) : Json(nullptr);
   out["wrong_fixes"] = e.wrong_fixes;
   out["first_wrong_fix_s"] = e.first_wrong_fix_s ? Json(*e.first_wrong_fix_s) : Json(nullptr);
+  out["in_plane"] = e.in_plane;
   out["ate_rmse_m"] = e.online.count > 0 ? Json(e.online.rmse_m) : Json(nullptr);
   out["yaw_rmse_deg"] = e.online.count > 0 ? Json(Degrees(e.online.yaw_rmse_rad)) : Json(nullptr);
   out["walls_found"] = e.CountWalls(WallOutcome::kFound);

@@ -57,6 +57,7 @@ Status RunEvaluate(EvaluateFlags flags, Session& session) {
   if (std::error_code error; !std::filesystem::equivalent(info->recording_path, flags.truth, error)) {
     session.console.Info(fmt::format("note: {} was made from {}, the truth is that of {}", flags.run, info->recording_path, flags.truth));
   }
+  flags.options.in_plane = info->planar;
   const Evaluation evaluation = Evaluate(*run, *truth, flags.options);
   session.console.Print(EvaluationToText(evaluation));
   if (!flags.json.empty()) {

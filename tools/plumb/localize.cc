@@ -197,6 +197,7 @@ RunInfo Describe(const LocalizeFlags& flags, const CLI::App& sub, const AGraph& 
     ++info.localized_scans;
   }
   if (!results.verdicts.empty()) info.duration_s = results.verdicts.back().stamp_s - results.verdicts.front().stamp_s;
+  info.planar = localizer.map().planar;
   info.keyframes = static_cast<size_t>(std::count_if(localizer.map().keyframes.begin(), localizer.map().keyframes.end(),
                                                      [](const runtime::Keyframe& keyframe) { return !keyframe.merged; }));
   info.deviated_walls = CountDeviatedWalls(plan, report);
@@ -294,7 +295,8 @@ void AddLocalize(CLI::App& app, Session& session) {
   sub->add_option("REC", flags->recording, "recording folder: scans/*.pcd and, where there is one, odometry.tum")->required();
   sub->add_option("-o,--output", flags->output, "the run folder to write")->required()->type_name("RUN");
   sub->add_flag("--no-odometry", flags->no_odometry, "do without the recording's odometry.tum");
-  sub->add_option("--max-duration", flags->replay.max_duration_s, "stop after this much of the recording; 0: all of it, s");
+  sub->add_option("--start", flags->replay.start_s, "leave out this much of the recording at its beginning, s");
+  sub->add_option("--max-duration", flags->replay.max_duration_s, "stop after this much of the rest; 0: all of it, s");
   sub->add_option("--threads", flags->replay.threads, "threads to work with; 0: all the machine has. The results are the same for any number");
   sub->add_option("--rate", flags->replay.rate,
                   "give scans at this multiple of the pace they were recorded at, as on a robot, and report latencies; 0: as fast as it goes, reproducibly");

@@ -35,6 +35,7 @@ std::string RunInfoToJson(const RunInfo& info) {
   summary["localized_scans"] = info.localized_scans;
   summary["unreadable_scans"] = info.unreadable_scans;
   summary["untimed_scans"] = info.untimed_scans;
+  summary["planar"] = info.planar;
   summary["unordered_scans"] = info.unordered_scans;
   summary["interrupted"] = info.interrupted;
   summary["time_to_localize_s"] = info.time_to_localize_s ? Json(*info.time_to_localize_s) : Json(nullptr);
@@ -69,6 +70,7 @@ Expected<RunInfo> ParseRunInfo(const std::string& json, const std::string& sourc
     summary.at("localized_scans").get_to(info.localized_scans);
     info.unreadable_scans = summary.value("unreadable_scans", size_t{0});
     info.untimed_scans = summary.value("untimed_scans", size_t{0});
+    info.planar = summary.value("planar", false);
     info.unordered_scans = summary.value("unordered_scans", size_t{0});
     info.interrupted = summary.value("interrupted", false);
     if (!summary.at("time_to_localize_s").is_null()) info.time_to_localize_s = summary.at("time_to_localize_s").get<double>();

@@ -30,6 +30,7 @@ struct RunInfo {
   // Summary.
   size_t scans = 0, localized_scans = 0, unreadable_scans = 0;
   size_t untimed_scans = 0;  // without usable per-point times: deskew off
+  bool planar = false;       // of a planar laser: heights in the trajectory are a convention
   size_t unordered_scans = 0;  // stamps not later than an earlier one's: left out
   bool interrupted = false;  // before the recording's end
   std::optional<double> time_to_localize_s;  // from the first scan's stamp to that of the first `localized` verdict

@@ -50,14 +50,27 @@ SensorModel Os0With32Beams() {
   return model;
 }
 
+SensorModel Planar() {
+  SensorModel model;
+  model.name = "planar";
+  model.beams = EvenBeams(1, 0, 0);
+  model.rate_hz = 15;
+  model.azimuth_steps = 720;
+  model.fov_rad = Rad(270);
+  model.min_range_m = 0.05;
+  model.max_range_m = 25;
+  return model;
+}
+
 }  // namespace
 
-std::vector<std::string> SensorNames() { return {"vlp16", "hdl32", "os0-32"}; }
+std::vector<std::string> SensorNames() { return {"vlp16", "hdl32", "os0-32", "planar"}; }
 
 std::optional<SensorModel> FindSensor(std::string_view name) {
   if (name == "vlp16") return Vlp16();
   if (name == "hdl32") return Hdl32();
   if (name == "os0-32") return Os0With32Beams();
+  if (name == "planar") return Planar();
   return std::nullopt;
 }
 

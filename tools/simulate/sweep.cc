@@ -54,6 +54,7 @@ Sweep Lidar::Take(double start_s, double stamp_s, const PoseFunction& pose, Rand
   const double step_s = model_.period_s() / model_.azimuth_steps, step_rad = 2 * std::numbers::pi / model_.azimuth_steps;
   for (uint32_t step = 0; step < model_.azimuth_steps; ++step) {
     const double azimuth_rad = std::numbers::pi - step * step_rad;
+    if (std::abs(azimuth_rad) > 0.5 * model_.fov_rad) continue;
     const double cos_azimuth = std::cos(azimuth_rad), sin_azimuth = std::sin(azimuth_rad);
     for (const Beam& beam : model_.beams) {
       const double time_s = step * step_s + beam.delay_s;

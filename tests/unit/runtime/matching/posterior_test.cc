@@ -82,14 +82,25 @@ TEST(Decide, APlanOfAnotherScaleIsNeverTheBuildings) {
 
 TEST(RaysVouch, OnlyFarAheadOfTheRivalAndTheMirrorImage) {
   const MatcherOptions options;
-  EXPECT_TRUE(RaysVouch({Good(100), Good(20, 5)}, 0, options));
-  EXPECT_FALSE(RaysVouch({Good(100), Good(80, 5)}, 0, options)) << "a rival is near";
-  EXPECT_FALSE(RaysVouch({Good(100), Good(20, 5)}, 80, options)) << "the mirror image is near";
-  EXPECT_FALSE(RaysVouch({Good(200), Good(200 - options.vouch_sure_nats + 1, 5)}, 0, options)) << "a small part of what both explain";
-  EXPECT_TRUE(RaysVouch({Good(200), Good(200 - options.vouch_sure_nats - 1, 5)}, 0, options)) << "sure, whatever both explain";
+  EXPECT_TRUE(RaysVouch({Good(100), Good(20, 5)}, 0, false, options));
+  EXPECT_FALSE(RaysVouch({Good(100), Good(80, 5)}, 0, false, options)) << "a rival is near";
+  EXPECT_FALSE(RaysVouch({Good(100), Good(20, 5)}, 80, false, options)) << "the mirror image is near";
+  EXPECT_FALSE(RaysVouch({Good(200), Good(200 - options.vouch_sure_nats + 1, 5)}, 0, false, options)) << "a small part of what both explain";
+  EXPECT_TRUE(RaysVouch({Good(200), Good(200 - options.vouch_sure_nats - 1, 5)}, 0, false, options)) << "sure, whatever both explain";
   Candidate blind = Good(100);
   blind.rays.explained_ratio = 0.5;
-  EXPECT_FALSE(RaysVouch({blind}, 0, options)) << "too few rays end where they should";
+  EXPECT_FALSE(RaysVouch({blind}, 0, false, options)) << "too few rays end where they should";
+}
+
+TEST(RaysVouch, FurnitureBeforeAPlanarLaserCountsNeitherWay) {
+  const MatcherOptions options;
+  Candidate furnished = Good(100);
+  furnished.rays.explained_ratio = 0.45;
+  furnished.rays.in_front_ratio = 0.4;
+  EXPECT_FALSE(RaysVouch({furnished}, 0, false, options));
+  EXPECT_TRUE(RaysVouch({furnished}, 0, true, options));
+  furnished.rays.in_front_ratio = 0.2;
+  EXPECT_FALSE(RaysVouch({furnished}, 0, true, options)) << "many of the others end where the plan has nothing";
 }
 
 TEST(Doubt, FewPlanesAreEnoughOnlyWhereRaysVouch) {

@@ -64,6 +64,27 @@ TEST(SeedPlace, KeepsTheGivenPlaceInATie) {
   EXPECT_NEAR(SeedPlace(scene.walls, scene.frames, Eigen::Isometry3d::Identity(), {}).T_plan_map.translation().x(), 0, 0.02);
 }
 
+TEST(SeedPlace, AKnownPlaceOutweighsWallsThatAgreeOnAnother) {
+  Scene scene;  // two fronts of furniture 0.3 m before their walls, one bare wall
+  scene.Add({0, 0}, {1, 0}, 0.3, 0, {0, 0, 0}, 0);
+  scene.Add({9, 0}, {1, 0}, 0.3, 0, {0, 0, 0}, 0);
+  scene.Add({5, 0}, {1, 0}, 0, 0, {0, 0, 0}, 0);
+  scene.Add({2, 3}, {0, -1}, 0, 0, {0, 0, 0}, 0);
+  JointOptions options;
+  EXPECT_NEAR(SeedPlace(scene.walls, scene.frames, Eigen::Isometry3d::Identity(), options).T_plan_map.translation().x(), -0.3, 0.05);
+  options.place = Eigen::Isometry3d::Identity();
+  options.place_sigma_m = 0.05;
+  EXPECT_NEAR(SeedPlace(scene.walls, scene.frames, Eigen::Isometry3d::Identity(), options).T_plan_map.translation().x(), 0, 0.05);
+  // From where an earlier solve may have got to: there the fronts stand as planned.
+  const Eigen::Isometry3d elsewhere(Eigen::Translation3d(-0.3, 0, 0));
+  Scene there;
+  there.Add({0, 0}, {1, 0}, 0, 0, {0, 0, 0}, 0);
+  there.Add({9, 0}, {1, 0}, 0, 0, {0, 0, 0}, 0);
+  there.Add({5, 0}, {1, 0}, -0.3, 0, {0, 0, 0}, 0);
+  there.Add({2, 3}, {0, -1}, 0, 0, {0, 0, 0}, 0);
+  EXPECT_NEAR(SeedPlace(there.walls, there.frames, elsewhere, options).T_plan_map.translation().x(), 0, 0.05);
+}
+
 TEST(SeedPlace, LeavesWhatNoWallTells) {
   Scene scene;
   scene.Add({0, 0}, {1, 0}, 0.1, 0, {0, 0, 0}, 0);

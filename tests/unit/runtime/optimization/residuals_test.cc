@@ -172,6 +172,33 @@ TEST(Residuals, JacobiansAgreeWithDifferences) {
   }
 }
 
+TEST(LevelStepResidual, ComparesMotionsOfTheLevelledFrames) {
+  const Eigen::Matrix3d level_a = Eigen::AngleAxisd(0.3, Eigen::Vector3d::UnitY()).toRotationMatrix(), level_b = level_a.transpose();
+  const LeveledPose a{{{1, 2}, 3.0}, level_a, 0.5}, b{{{1.4, 2.3}, -3.1}, level_b, 0.5};
+  LevelStepResidual step{Between(a.pose, b.pose), Eigen::Vector3d(1 / 0.01, 1 / 0.02, 1 / 0.005).asDiagonal(),
+                         Eigen::Quaterniond(level_a).conjugate(), Eigen::Quaterniond(level_b).conjugate()};
+  const auto block = [](const LeveledPose& pose) {
+    Eigen::VectorXd x(7);
+    x << Eigen::Quaterniond(pose.Lifted().linear()).coeffs(), pose.Lifted().translation();
+    return x;
+  };
+  Eigen::VectorXd x(14);
+  x << block(a), block(b);
+  Eigen::Vector3d r;
+  step(x.data(), x.data() + 7, r.data());
+  EXPECT_LT(r.norm(), 1e-9);
+  step.T_a_b.yaw_rad -= 0.01;  // the robot turned further than measured, by two sigmas
+  step.T_a_b.t_m.x() -= 0.01;
+  step(x.data(), x.data() + 7, r.data());
+  EXPECT_NEAR(r.x(), 1, 1e-6);
+  EXPECT_NEAR(r.y(), 0, 1e-6);
+  EXPECT_NEAR(r.z(), 2, 1e-3);
+  x.tail<7>().head<4>() *= -1;  // the same orientation
+  step(x.data(), x.data() + 7, r.data());
+  EXPECT_NEAR(r.z(), 2, 1e-3);
+  ExpectJacobian<3>([&](const auto* p, auto* out) { step(p, p + 7, out); }, x);
+}
+
 TEST(Residuals, AreZeroAtTheTruth) {
   for (uint64_t seed = 1; seed <= 10; ++seed) {
     RandomScene s(seed);

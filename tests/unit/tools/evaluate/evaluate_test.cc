@@ -36,6 +36,18 @@ Truth MakeTruth() {
   return truth;
 }
 
+TEST(Evaluate, LeavesHeightsOutInThePlane) {
+  tools::Run run = MakeRun();
+  for (runtime::StampedPose& pose : run.online) pose.T.translation().z() = 1.5;
+  EXPECT_GT(Evaluate(run, MakeTruth()).wrong_fixes, 0u);
+  EvaluateOptions options;
+  options.in_plane = true;
+  const Evaluation e = Evaluate(run, MakeTruth(), options);
+  EXPECT_EQ(e.wrong_fixes, 0u);
+  EXPECT_NEAR(e.online.rmse_m, 0.03, 1e-12);
+  EXPECT_THAT(EvaluationToText(e), HasSubstr("in x and y"));
+}
+
 TEST(Evaluate, MeasuresTimeAndShareFromTheVerdicts) {
   const Evaluation e = Evaluate(MakeRun(), MakeTruth());
   ASSERT_TRUE(e.time_to_localize_s);

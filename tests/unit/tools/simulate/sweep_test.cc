@@ -40,6 +40,18 @@ TEST(Sensors, AreWhatTheirMakersSay) {
   EXPECT_FALSE(FindSensor("sick"));
 }
 
+TEST(Lidar, APlanarOneSeesOneLineAndNothingBehind) {
+  const AGraph house = test::MakeHouse();
+  const Lidar lidar(house, *FindSensor("planar"), 0.9);
+  Random random(1);
+  const Sweep sweep = lidar.Take(0, 50, [](double) { return At(2, 1.5); }, random);
+  EXPECT_GT(sweep.scan.points.size(), 500u);
+  for (const Eigen::Vector3f& p : sweep.scan.points) {
+    EXPECT_EQ(p.z(), 0);
+    EXPECT_LE(std::abs(std::atan2(p.y(), p.x())), 0.751f * static_cast<float>(std::numbers::pi));
+  }
+}
+
 TEST(Lidar, MeasuresTheRangeToAWall) {
   const AGraph house = test::MakeHouse();
   const Lidar lidar(house, Ideal(), 0.9);

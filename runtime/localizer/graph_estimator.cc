@@ -130,7 +130,7 @@ struct GraphEstimator::Impl {
   // Without a plan the map can at least be made consistent by itself.
   void Polish() {
     const PolishResult polished = PolishMap(mapper.graph());
-    if (!polished.converged) return;
+    if (!polished.usable) return;
     std::vector<Keyframe>& keyframes = mapper.mutable_graph().keyframes;
     for (size_t i = 0; i < keyframes.size(); ++i) keyframes[i].T_map_kf = polished.T_map_kf[i];
     mapper.OnPosesChanged();

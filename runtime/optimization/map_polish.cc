@@ -9,6 +9,7 @@ JointOptions PolishOptions() {
   JointOptions options;
   options.edge_m2 = 0;
   options.observation_loss = 1;
+  options.max_iterations = 100;
   return options;
 }
 
@@ -28,6 +29,7 @@ PolishResult PolishMap(const SGraph& map, const JointOptions& options) {
   state.place = PlaceBlock(Eigen::Isometry3d::Identity());
   JointProblem problem(map, no_plan, no_frames, no_matches, options, state);
   const JointProblem::Outcome outcome = problem.Solve();
+  out.usable = outcome.usable;
   out.converged = outcome.converged;
   out.iterations = outcome.iterations;
   out.message = outcome.message;

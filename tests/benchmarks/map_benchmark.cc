@@ -277,7 +277,7 @@ bool Run(const std::string& path, const tools::SimulateOptions& options, const s
   const double odometry_m = Ate_m(driven.mapper.graph(), driven.places);
   const auto start = Clock::now();
   const PolishResult polished = PolishMap(driven.mapper.graph());
-  if (polished.converged) {
+  if (polished.usable) {
     for (size_t i = 0; i < polished.T_map_kf.size(); ++i) driven.mapper.mutable_graph().keyframes[i].T_map_kf = polished.T_map_kf[i];
     driven.mapper.OnPosesChanged();
   }

@@ -69,7 +69,7 @@ TEST(PolishMap, HoldsTheFirstKeyframe) {
 }
 
 TEST(PolishMap, LeavesPosesWhereThereIsNothingToGoBy) {
-  EXPECT_FALSE(PolishMap(SGraph()).converged);
+  EXPECT_FALSE(PolishMap(SGraph()).usable);
   SGraph map;
   map.keyframes.resize(2);
   map.keyframes[1].T_map_kf.translation().x() = map.keyframes[1].T_odom_kf.translation().x() = 1;

@@ -119,8 +119,9 @@ std::string NameOf(const testing::TestParamInfo<Param>& drawing) {
 
 INSTANTIATE_TEST_SUITE_P(OfOthers, SeenDrawings, testing::ValuesIn(kSeen), NameOf<test::ByEye>);
 
-// Where the drawing of the CMU floor has the numbers of its rooms: each number is one room. Doorways as read on a print of the drawing at
-// 1:50: a pair of jambs with a leaf, or with nothing but the rooms' outlines between them; two leaves are one, and so are the doors of lifts.
+// Where the drawing of the CMU floor has the numbers of its rooms: each number is one room. Doorways as read on the drawing with the compiled
+// plan laid over it, where the two agree at the plan's coordinates: a pair of jambs with a leaf, or with nothing but the rooms' outlines between
+// them; two leaves are one, and so are the doors of lifts.
 // Gaps within one numbered room (stalls, windbreaks, alcoves) are no doorways, nor are the panels of a folding partition.
 const test::ByEye kNumbered = {
     "plans/svg/newell-simon_2011_GIS-1.svg",

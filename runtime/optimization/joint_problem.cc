@@ -1,7 +1,5 @@
 #include "runtime/optimization/joint_problem.h"
 
-#include <ceres/ceres.h>
-
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
 
@@ -11,6 +9,7 @@
 #include <utility>
 
 #include "runtime/odometry/planar/planar_scan.h"
+#include "runtime/optimization/ceres_blocks.h"
 #include "runtime/optimization/level_votes.h"
 #include "runtime/optimization/odometry_step.h"
 #include "runtime/optimization/wall_measurement.h"
@@ -18,7 +17,6 @@
 namespace plumb::runtime {
 namespace {
 
-using PoseManifold = ceres::ProductManifold<ceres::EigenQuaternionManifold, ceres::EuclideanManifold<3>>;
 // Poses that turn about z and move in x and y only: of a planar laser, which tells nothing else. Tangent: yaw, x, y.
 class LevelPoseManifold final : public ceres::Manifold {
  public:
@@ -57,26 +55,12 @@ class LevelPoseManifold final : public ceres::Manifold {
   }
 };
 
-using PlaneManifold = ceres::ProductManifold<ceres::SphereManifold<3>, ceres::EuclideanManifold<1>>;
-
 constexpr double kAnchorSigma_m = 1e-4, kAnchorSigma_rad = 1e-4;
 // Far weaker than any observation: they only keep the problem regular where nothing was observed (a corridor, no floor, a line of points).
 constexpr std::array<double, kPlaceSize> kPlaceWeight{0.1, 0.1, 0.1, 1.0};
 constexpr double kHeldHeight_m = 0.005;  // without floor or ceiling, walls a thousandth off plumb would drag the height along by metres
 constexpr std::array<double, kPlaneSize> kPlaneWeight{1.0, 1.0, 1.0, 0.1};
 constexpr double kOdometryLoss = 3.0, kLoopLoss = 2.0;  // in sigmas
-
-template <class Functor, int kResiduals, int... kBlocks>
-auto* Cost(const Functor& functor) {
-  return new ceres::AutoDiffCostFunction<Functor, kResiduals, kBlocks...>(new Functor(functor));
-}
-
-ceres::Problem::Options SharedLossesAndManifolds() {
-  ceres::Problem::Options options;
-  options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  return options;
-}
 
 }  // namespace
 

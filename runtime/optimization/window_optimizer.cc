@@ -1,11 +1,10 @@
 #include "runtime/optimization/window_optimizer.h"
 
-#include <ceres/ceres.h>
-
 #include <algorithm>
 #include <array>
 #include <memory>
 
+#include "runtime/optimization/ceres_blocks.h"
 #include "runtime/optimization/joint_problem.h"
 #include "runtime/optimization/odometry_step.h"
 #include "runtime/optimization/residuals.h"
@@ -14,24 +13,9 @@
 namespace plumb::runtime {
 namespace {
 
-using PoseManifold = ceres::ProductManifold<ceres::EigenQuaternionManifold, ceres::EuclideanManifold<3>>;
-using PlaneManifold = ceres::ProductManifold<ceres::SphereManifold<3>, ceres::EuclideanManifold<1>>;
-
 constexpr double kOdometryLoss = 3.0;  // in sigmas
 constexpr int kMaxIterations = 10;
 constexpr std::array<double, kPlaneSize> kPlaneWeight{1.0, 1.0, 1.0, 0.1};  // only keeps planes regular that a line of points was seen of
-
-template <class Functor, int kResiduals, int... kBlocks>
-auto* Cost(const Functor& functor) {
-  return new ceres::AutoDiffCostFunction<Functor, kResiduals, kBlocks...>(new Functor(functor));
-}
-
-ceres::Problem::Options SharedLossesAndManifolds() {
-  ceres::Problem::Options options;
-  options.loss_function_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  options.manifold_ownership = ceres::DO_NOT_TAKE_OWNERSHIP;
-  return options;
-}
 
 class Window {
  public:

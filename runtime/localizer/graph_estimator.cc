@@ -17,6 +17,8 @@ constexpr double kUntimedShare = 0.1, kUntimedFloor_m = 0.05, kUntimedFloor_rad 
 
 constexpr double kPlanarPlaceSigma_m = 0.05;  // of a planar map's place by its rays
 
+constexpr int kMaxHeld = 10;  // keyframes in a row: a robot that nobody looks for is never found
+
 // A registered scan by the keyframe that was the newest when it came: it follows that keyframe through every later solve.
 struct ScanPlace {
   double stamp_s = 0;
@@ -58,6 +60,7 @@ struct GraphEstimator::Impl {
   size_t num_keyframes = 0;               // made of the present map so far, ...
   size_t solved_all_at = 0;               // ... and when everything was last solved
   bool solve_due = false, rescore_due = false;
+  int num_held = 0;                       // keyframes in a row that were only mapped
   std::vector<WallDeviation> known;       // per plan wall, as estimated so far
   std::vector<Eigen::Isometry3d> rivals;  // of the fix, T_plan_map each
   int votes_against = 0;
@@ -95,6 +98,12 @@ struct GraphEstimator::Impl {
     Optimize(false);
   }
 
+  void StateNoise(JointOptions& solver) const {
+    if (num_untimed <= kUntimedShare * static_cast<double>(num_scans)) return;
+    solver.observation_floor_m = std::max(solver.observation_floor_m, kUntimedFloor_m);
+    solver.observation_floor_rad = std::max(solver.observation_floor_rad, kUntimedFloor_rad);
+  }
+
   [[nodiscard]] JointOptions SolverOptions() const {
     JointOptions out = options.joint;
     // Half of the walls that a planar laser sees are furniture, which may agree with each other better than with the walls. The rays know.
@@ -102,10 +111,7 @@ struct GraphEstimator::Impl {
       out.place = T_by_rays;
       out.place_sigma_m = kPlanarPlaceSigma_m;
     }
-    if (num_untimed > kUntimedShare * static_cast<double>(num_scans)) {
-      out.observation_floor_m = std::max(out.observation_floor_m, kUntimedFloor_m);
-      out.observation_floor_rad = std::max(out.observation_floor_rad, kUntimedFloor_rad);
-    }
+    StateNoise(out);
     return out;
   }
 
@@ -129,7 +135,9 @@ struct GraphEstimator::Impl {
 
   // Without a plan the map can at least be made consistent by itself.
   void Polish() {
-    const PolishResult polished = PolishMap(mapper.graph());
+    JointOptions polish_options = PolishOptions();
+    StateNoise(polish_options);
+    const PolishResult polished = PolishMap(mapper.graph(), polish_options);
     if (!polished.usable) return;
     std::vector<Keyframe>& keyframes = mapper.mutable_graph().keyframes;
     for (size_t i = 0; i < keyframes.size(); ++i) keyframes[i].T_map_kf = polished.T_map_kf[i];
@@ -172,7 +180,11 @@ struct GraphEstimator::Impl {
       solve_due |= num_keyframes % static_cast<size_t>(options.optimize_every) == 0;
       rescore_due |= num_keyframes % static_cast<size_t>(options.rescore_every) == 0;
     }
-    if (hold) return true;
+    if (hold && num_held < kMaxHeld) {
+      ++num_held;
+      return true;
+    }
+    num_held = 0;
     Stopwatch watch;
     if (!placed()) {
       Search();

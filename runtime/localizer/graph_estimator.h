@@ -47,14 +47,14 @@ struct GraphState {
   std::vector<StageTime> timing;  // of this scan
 };
 
-// Single-threaded and deterministic.
+// Deterministic, whatever threads the matcher uses.
 class GraphEstimator {
  public:
   // `plan` must outlive it; `options` must pass Check().
   GraphEstimator(const AGraph& plan, const LocalizerOptions& options);
   ~GraphEstimator();
 
-  // The next scan in time order. `hold`: map only; matching and solving, which cost most, wait for the first keyframe added without it.
+  // The next scan in time order. `hold`: map only; matching and solving, which cost most, wait for the first keyframe added without it, or for the tenth.
   [[nodiscard]] GraphState Add(const RegisteredScan& scan, bool hold);
   // A final solve over everything, with covariances.
   void Finish();

@@ -66,7 +66,7 @@ RegisteredScan Localizer::Register(const Scan& scan, const std::optional<Odometr
 bool Localizer::blind() const { return failed_scans_ >= kMaxFailedScans; }
 
 ScanVerdict Localizer::Track(const RegisteredScan& scan, const GraphState& graph) {
-  failed_scans_ = scan.odometry.ok || scan.odometry.restarted ? 0 : failed_scans_ + 1;
+  if (scan.in_order) failed_scans_ = scan.odometry.ok || scan.odometry.restarted ? 0 : failed_scans_ + 1;
   ScanVerdict out;
   out.stamp_s = scan.stamp_s;
   out.in_order = scan.in_order;
@@ -83,13 +83,13 @@ ScanVerdict Localizer::Track(const RegisteredScan& scan, const GraphState& graph
 }
 
 std::optional<Eigen::Isometry3d> Localizer::T_plan_map() const {
-  if (!localized()) return std::nullopt;
+  if (!graph_.placed()) return std::nullopt;
   return graph_.T_plan_map();
 }
 
 Trajectory Localizer::SmoothedTrajectory() const {
   Trajectory out = graph_.earlier_poses();
-  if (!localized()) return out;
+  if (!graph_.placed()) return out;
   const Trajectory poses = graph_.SmoothedPoses();
   out.insert(out.end(), poses.begin(), poses.end());
   return out;

@@ -22,7 +22,7 @@ struct ScanVerdict {
 // What a given odometry (any start frame) says of the lidar's motion during `scan`; none where it does not cover the sweep.
 [[nodiscard]] std::optional<Odometry::GivenMotion> GivenMotionDuring(const Scan& scan, const Trajectory& given_odometry);
 
-// Starts no threads and is deterministic: the same scans give the same verdicts, poses and deviations. The steps of AddScan() share no state, so
+// Deterministic, whatever threads the matcher uses: the same scans give the same verdicts, poses and deviations. The steps of AddScan() share no state, so
 // that each may run on a thread of its own, as long as every one of them gets the scans in their order (replay.h, online_localizer.h).
 class Localizer {
  public:
@@ -42,7 +42,7 @@ class Localizer {
   // After the last scan (or whenever asked, with no step running): a final solve over everything.
   void Finish() { graph_.Finish(); }
 
-  // Where the map lies in the plan; none while not localized.
+  // Where the present map lies in the plan; none while it has no place there. A robot that sees nothing for a moment is lost, its map is not.
   [[nodiscard]] std::optional<Eigen::Isometry3d> T_plan_map() const;
   [[nodiscard]] const SGraph& map() const { return graph_.map(); }  // the present one
   [[nodiscard]] const MatchResult& last_match() const { return graph_.last_match(); }
@@ -53,7 +53,6 @@ class Localizer {
   [[nodiscard]] Trajectory SmoothedTrajectory() const;
 
  private:
-  [[nodiscard]] bool localized() const { return graph_.placed() && !blind(); }
   [[nodiscard]] bool blind() const;
 
   // One step's state each.

@@ -49,6 +49,7 @@ Localizer& OnlineLocalizer::Drain() {
   if (!waiting_.empty()) queue_.Push(std::exchange(waiting_, {}));
   queue_.Close();
   if (graph_thread_.joinable()) graph_thread_.join();
+  failure_.Rethrow();
   return localizer_;
 }
 
@@ -63,6 +64,10 @@ std::vector<OnlineLocalizer::StampedTime> OnlineLocalizer::TakeGraphTimes() {
 }
 
 void OnlineLocalizer::RunGraph() {
+  if (!failure_.Guard([this] { TakeInScans(); })) queue_.Close();
+}
+
+void OnlineLocalizer::TakeInScans() {
   while (const auto scans = queue_.Pop()) {
     for (const RegisteredScan& scan : *scans) {
       const bool behind = queue_.size() >= static_cast<size_t>(options_.hold_solves_behind);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "runtime/localizer/bounded_queue.h"
+#include "runtime/localizer/first_exception.h"
 #include "runtime/localizer/localizer.h"
 
 namespace plumb::runtime {
@@ -48,6 +49,7 @@ class OnlineLocalizer {
 
  private:
   void RunGraph();
+  void TakeInScans();
 
   OnlineOptions options_;
   Localizer localizer_;
@@ -58,6 +60,7 @@ class OnlineLocalizer {
   OnlineCounts counts_;
   std::vector<StampedTime> graph_times_;
   bool dropping_ = false;
+  FirstException failure_;  // of the graph; Drain() throws it
   std::thread graph_thread_;  // last: it uses all of the above
 };
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "runtime/localizer/bounded_queue.h"
+#include "runtime/localizer/first_exception.h"
 
 namespace plumb::runtime {
 namespace {
@@ -86,13 +87,39 @@ bool Conclude(OdometryScan& scan, Localizer& localizer, const ReplaySink& sink) 
 int NumThreads(int asked) { return asked > 0 ? asked : std::max(1, static_cast<int>(std::thread::hardware_concurrency())); }
 
 // Reads the scans into `queue` until it is closed.
-std::jthread StartReading(const Recording& recording, ScanRange scans, BoundedQueue<ReadScan>& queue) {
-  return std::jthread([&recording, scans, &queue] {
+std::jthread StartReading(const Recording& recording, ScanRange scans, BoundedQueue<ReadScan>& queue, FirstException& failure) {
+  return std::jthread([&recording, scans, &queue, &failure] {
     const Closer closer(queue);
-    for (size_t i = scans.first; i < scans.last; ++i) {
-      if (!queue.Push({i, recording.Read(i)})) return;
-    }
+    failure.Guard([&] {
+      for (size_t i = scans.first; i < scans.last; ++i) {
+        if (!queue.Push({i, recording.Read(i)})) return;
+      }
+    });
   });
+}
+
+// Odometry on a thread of its own, reading on another where there is a third; ends when all threads have.
+void RunPipeline(const Recording& recording, const ReplayOptions& options, int num_threads, Localizer& localizer, const ReplaySink& sink,
+                 FirstException& failure) {
+  const ScanRange scans = ScansOf(recording, options);
+  BoundedQueue<ReadScan> read(kScansAhead);
+  BoundedQueue<OdometryScan> registered(kScansAhead);
+  std::jthread reading;
+  if (num_threads > 2) reading = StartReading(recording, scans, read, failure);
+  const std::jthread odometry([&] {
+    const Closer closer(registered);
+    failure.Guard([&] {
+      for (size_t i = scans.first; i < scans.last; ++i) {
+        const std::optional<ReadScan> next = num_threads > 2 ? read.Pop() : ReadScan{i, recording.Read(i)};
+        if (!next || !registered.Push(Register(recording, options, *next, localizer))) return;
+      }
+    });
+  });
+  const Closer close_read(read);
+  const Closer close_registered(registered);
+  while (std::optional<OdometryScan> scan = registered.Pop()) {
+    if (!Conclude(*scan, localizer, sink)) return;
+  }
 }
 
 }  // namespace
@@ -106,38 +133,27 @@ std::string ReplayOptions::Check() const {
 }
 
 void ReplayOffline(const Recording& recording, const ReplayOptions& options, Localizer& localizer, const ReplaySink& sink) {
-  const ScanRange scans = ScansOf(recording, options);
   const int num_threads = NumThreads(options.threads);
   const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<size_t>(num_threads));
   if (num_threads == 1) {
+    const ScanRange scans = ScansOf(recording, options);
     for (size_t i = scans.first; i < scans.last; ++i) {
       OdometryScan scan = Register(recording, options, {i, recording.Read(i)}, localizer);
       if (!Conclude(scan, localizer, sink)) return;
     }
     return;
   }
-  BoundedQueue<ReadScan> read(kScansAhead);
-  BoundedQueue<OdometryScan> registered(kScansAhead);
-  std::jthread reading;
-  if (num_threads > 2) reading = StartReading(recording, scans, read);
-  const std::jthread odometry([&] {
-    const Closer closer(registered);
-    for (size_t i = scans.first; i < scans.last; ++i) {
-      const std::optional<ReadScan> next = num_threads > 2 ? read.Pop() : ReadScan{i, recording.Read(i)};
-      if (!next || !registered.Push(Register(recording, options, *next, localizer))) return;
-    }
-  });
-  const Closer close_read(read);
-  const Closer close_registered(registered);
-  while (std::optional<OdometryScan> scan = registered.Pop()) {
-    if (!Conclude(*scan, localizer, sink)) return;
-  }
+  FirstException failure;
+  RunPipeline(recording, options, num_threads, localizer, sink, failure);
+  failure.Rethrow();
 }
 
-void ReplayPaced(const Recording& recording, const ReplayOptions& options, OnlineLocalizer& localizer, const ReplaySink& sink) {
+namespace {
+
+void GiveAtPace(const Recording& recording, const ReplayOptions& options, OnlineLocalizer& localizer, const ReplaySink& sink, FirstException& failure) {
   using Clock = std::chrono::steady_clock;
   BoundedQueue<ReadScan> read(kScansAhead);
-  const std::jthread reading = StartReading(recording, ScansOf(recording, options), read);
+  const std::jthread reading = StartReading(recording, ScansOf(recording, options), read, failure);
   const Closer closer(read);
   Clock::time_point due = Clock::now();
   std::optional<double> last_s;
@@ -155,6 +171,15 @@ void ReplayPaced(const Recording& recording, const ReplayOptions& options, Onlin
     }
     if (!sink(replayed)) return;
   }
+}
+
+}  // namespace
+
+void ReplayPaced(const Recording& recording, const ReplayOptions& options, OnlineLocalizer& localizer, const ReplaySink& sink) {
+  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<size_t>(NumThreads(options.threads)));
+  FirstException failure;
+  GiveAtPace(recording, options, localizer, sink, failure);
+  failure.Rethrow();
 }
 
 }  // namespace plumb::runtime

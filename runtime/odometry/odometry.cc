@@ -27,9 +27,11 @@ constexpr double kSureGap_s = 0.25;             // after longer gaps the robot m
 constexpr size_t kSearchPoints = 800;
 constexpr std::array<double, 7> kSearchYaw_rad = {0, 0.2, -0.2, 0.4, -0.4, 0.6, -0.6};
 constexpr double kMaxPrediction_s = 1.0;        // velocity is not trusted for longer
-// Of a robot or a walking person, one sigma; less in tilt, and hardly any up and down: in a small room a lidar sees neither floor nor ceiling, and
-// what noise in the walls' normals says of the height would soon add up to decimetres.
-const Eigen::Vector3d kAcceleration_mps2(3.0, 3.0, 0.05), kTurning_radps2(1.5, 1.5, 6.0);
+// Of a robot or a walking person, one sigma; less in tilt.
+const Eigen::Vector3d kAcceleration_mps2(3.0, 3.0, 1.0), kTurning_radps2(1.5, 1.5, 6.0);
+// Hardly any up and down where no floor or ceiling measures it: in a small room, what noise in the walls' normals says of the height would soon
+// add up to decimetres.
+const Eigen::Vector3d kLevelAcceleration_mps2(3.0, 3.0, 0.05);
 constexpr double kGivenScaleSigma = 0.1;        // a given odometry's relative error
 constexpr double kMaxGivenSpeed_mps = 30.0;     // beyond, the given odometry has jumped
 constexpr double kVerticalDamping = 0.5;        // robots move along the floor: climbing at this rate dies out where no plane measures it
@@ -45,12 +47,12 @@ Twist TwistBetween(const Eigen::Isometry3d& T_0, const Eigen::Isometry3d& T_1, d
   return {T.translation() / dt_s, LogSo3(T.linear()) / dt_s};
 }
 
-Eigen::Isometry3d Advanced(const Eigen::Isometry3d& T, const Twist& twist, double dt_s) {
+Eigen::Isometry3d Advanced(const Eigen::Isometry3d& T, const Twist& twist, double dt_s, bool upright) {
   Eigen::Isometry3d motion = Eigen::Isometry3d::Identity();
   motion.linear() = ExpSo3(twist.w_radps * dt_s);
   motion.translation() = twist.v_mps * dt_s;
   Eigen::Isometry3d out = T * motion;
-  out.translation().z() = T.translation().z() + kVerticalDamping * (out.translation().z() - T.translation().z());
+  if (upright) out.translation().z() = T.translation().z() + kVerticalDamping * (out.translation().z() - T.translation().z());
   return out;
 }
 
@@ -67,10 +69,11 @@ Matrix6d DiagonalCovariance(const Eigen::Vector3d& rotation_rad, const Eigen::Ve
 }
 
 // What speeding up or braking adds to a motion over dt_s that is predicted from one over earlier_s.
-Matrix6d CoastingCovariance(double dt_s, double earlier_s) {
+Matrix6d CoastingCovariance(double dt_s, double earlier_s, bool level) {
   const double product_s2 = std::abs(dt_s) * std::max(std::abs(dt_s), earlier_s);
   return DiagonalCovariance((kTurning_radps2 * product_s2).array() + kFloor_rad,
-                            kAcceleration_mps2 * product_s2 + Eigen::Vector3d(kFloor_m, kFloor_m, kFloorVertical_m));
+                            (level ? kLevelAcceleration_mps2 : kAcceleration_mps2) * product_s2 +
+                                Eigen::Vector3d(kFloor_m, kFloor_m, level ? kFloorVertical_m : kFloor_m));
 }
 
 Matrix6d GivenCovariance(const Eigen::Isometry3d& moved) {
@@ -120,6 +123,7 @@ struct Odometry::Impl {
   SurfelMap map;
   std::optional<PreparedScan> first;  // until the second scan tells how fast the first one moved
   bool started = false;
+  bool upright = false;     // z of the odometry's frame is up; else it is the sensor's own axis, which may lie
   int failures = 0;         // in a row: nothing says where the robot went meanwhile
   int misfits = 0;          // of these, scans with enough points: the map is not of this place
   // Of the last scan.
@@ -160,7 +164,9 @@ void Odometry::Impl::Start(const PreparedScan& prepared, const std::optional<Giv
   for (const Eigen::Vector3f& p : prepared.scan.points) around.Insert(p.cast<double>(), Eigen::Vector3d::Zero());
   around.EndScan();
   motion = {};
-  if (const std::optional<Eigen::Vector3d> up = FindUp(around, kMaxTilt_rad)) motion.T_start.linear() = LevelingRotation(*up);
+  const std::optional<Eigen::Vector3d> up = FindUp(around, kMaxTilt_rad);
+  upright = up.has_value();
+  if (up) motion.T_start.linear() = LevelingRotation(*up);
   motion.T_end = motion.T_start;
   sweep_s = prepared.sweep_s;
   covariance.bottomRightCorner<6, 6>() = DiagonalCovariance(Eigen::Vector3d::Constant(0.05), Eigen::Vector3d::Constant(0.1));
@@ -180,7 +186,7 @@ SweepPrior Odometry::Impl::Predict(double next_stamp_s, double next_sweep_s, con
   SweepPrior prior;
   const double gap_s = std::clamp(next_stamp_s - stamp_s - sweep_s, -sweep_s, kMaxPrediction_s);
   // The next start and motion, given the last ones' increments: start' = d + (1 + gap / sweep) e, motion' = (sweep' / sweep) e.
-  Matrix12d F = Matrix12d::Zero(), Q = Matrix12d::Zero();
+  Matrix12d F = Matrix12d::Zero(), Q = Matrix12d::Zero(), Q_level = Matrix12d::Zero();
   F.topLeftCorner<6, 6>().setIdentity();
   if (sweep_s > 0) F.topRightCorner<6, 6>().setIdentity();
   // A given odometry that jumps between two sweeps was restarted: its step says nothing.
@@ -189,23 +195,26 @@ SweepPrior Odometry::Impl::Predict(double next_stamp_s, double next_sweep_s, con
   if (continues) {
     const Eigen::Isometry3d moved = last_given->T_end.inverse() * given->T_start;
     prior.mean.T_start = motion.T_end * moved;
-    Q.topLeftCorner<6, 6>() = GivenCovariance(moved);
+    Q.topLeftCorner<6, 6>() = Q_level.topLeftCorner<6, 6>() = GivenCovariance(moved);
   } else {
-    prior.mean.T_start = Advanced(motion.T_end, twist, gap_s);
-    Q.topLeftCorner<6, 6>() = CoastingCovariance(gap_s, 0);
+    prior.mean.T_start = Advanced(motion.T_end, twist, gap_s, upright);
+    Q.topLeftCorner<6, 6>() = CoastingCovariance(gap_s, 0, false);
+    Q_level.topLeftCorner<6, 6>() = CoastingCovariance(gap_s, 0, true);
     if (sweep_s > 0) F.topRightCorner<6, 6>() *= 1 + gap_s / sweep_s;
   }
   if (given) {
     const Eigen::Isometry3d moved = given->T_start.inverse() * given->T_end;
     prior.mean.T_end = prior.mean.T_start * moved;
-    Q.bottomRightCorner<6, 6>() = GivenCovariance(moved);
+    Q.bottomRightCorner<6, 6>() = Q_level.bottomRightCorner<6, 6>() = GivenCovariance(moved);
   } else {
-    prior.mean.T_end = Advanced(prior.mean.T_start, twist, next_sweep_s);
-    Q.bottomRightCorner<6, 6>() = CoastingCovariance(next_sweep_s, sweep_s);
+    prior.mean.T_end = Advanced(prior.mean.T_start, twist, next_sweep_s, upright);
+    Q.bottomRightCorner<6, 6>() = CoastingCovariance(next_sweep_s, sweep_s, false);
+    Q_level.bottomRightCorner<6, 6>() = CoastingCovariance(next_sweep_s, sweep_s, true);
     if (sweep_s > 0) F.bottomRightCorner<6, 6>() = next_sweep_s / sweep_s * Matrix6d::Identity();
   }
   if (next_sweep_s <= 0) prior.mean.T_end = prior.mean.T_start;
   prior.covariance = F * covariance * F.transpose() + Q;
+  if (upright) prior.level_covariance = prior.covariance - Q + Q_level;
   return prior;
 }
 
@@ -256,9 +265,9 @@ void Odometry::Impl::RestartWithVelocity(const PreparedScan& second, const Sweep
   if (measured.v_mps.norm() < kBootstrapSpeed_mps && measured.w_radps.norm() < kBootstrapTurn_radps) return;
   SweepPrior better = prior;
   twist = measured;
-  motion.T_end = Advanced(motion.T_start, twist, sweep_s);
-  better.mean.T_start = Advanced(motion.T_start, twist, second.scan.stamp_s - stamp_s);
-  better.mean.T_end = Advanced(better.mean.T_start, twist, second.sweep_s);
+  motion.T_end = Advanced(motion.T_start, twist, sweep_s, upright);
+  better.mean.T_start = Advanced(motion.T_start, twist, second.scan.stamp_s - stamp_s, upright);
+  better.mean.T_end = Advanced(better.mean.T_start, twist, second.sweep_s, upright);
   map = SurfelMap(map.options());
   Insert(*first, motion);
   const RegistrationResult again = Align(second, better, 0);

@@ -90,8 +90,18 @@ struct LinearSystem {
   Vector12d g;
 };
 
-LinearSystem WithPrior(const NormalEquations& sum, const SweepMotion& motion, const SweepPrior& prior, const Matrix12d& prior_information,
+// The prior's information matrices.
+struct PriorInformation {
+  explicit PriorInformation(const SweepPrior& prior) : free(Inverse(prior.covariance)), level(prior.level_covariance ? Inverse(*prior.level_covariance) : free) {}
+  static Matrix12d Inverse(const Matrix12d& covariance) { return covariance.llt().solve(Matrix12d::Identity()); }
+  [[nodiscard]] const Matrix12d& For(const NormalEquations& sum, double level_ratio) const { return sum.A[0](5, 5) < level_ratio * sum.weight ? level : free; }
+
+  Matrix12d free, level;
+};
+
+LinearSystem WithPrior(const NormalEquations& sum, const SweepMotion& motion, const SweepPrior& prior, const PriorInformation& information,
                        const RegistrationOptions& options) {
+  const Matrix12d& prior_information = information.For(sum, options.level_ratio);
   const Matrix6d P = HeldDirections(sum, options.degenerate_ratio);
   const double share = 1 / options.points_per_independent;
   LinearSystem system;
@@ -128,7 +138,7 @@ RegistrationResult RegisterSweep(std::span<const SweepPoint> points, bool timed,
                                  const RegistrationOptions& options) {
   RegistrationResult result;
   result.motion = prior.mean;
-  const Matrix12d prior_information = prior.covariance.llt().solve(Matrix12d::Identity());
+  const PriorInformation prior_information(prior);
   const double final_kernel_m = kInlierSigmas * options.range_sigma_m;
   double kernel_m = std::max(options.initial_kernel_m, final_kernel_m);
   for (; result.iterations < options.max_iterations; ++result.iterations) {

@@ -34,7 +34,7 @@ class LevelPoseManifold final : public ceres::Manifold {
   }
   bool Minus(const double* y, const double* x, double* delta) const override {
     const Eigen::Quaterniond turn = Eigen::Map<const Eigen::Quaterniond>(y) * Eigen::Map<const Eigen::Quaterniond>(x).conjugate();
-    delta[0] = 2 * std::atan2(turn.z(), turn.w());
+    delta[0] = 2 * std::atan(turn.z() / turn.w());  // the same for q and -q; a half turn is infinite and comes out as pi
     delta[1] = y[4] - x[4];
     delta[2] = y[5] - x[5];
     return true;

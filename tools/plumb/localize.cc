@@ -207,7 +207,10 @@ RunInfo Describe(const LocalizeFlags& flags, const CLI::App& sub, const AGraph& 
   for (const TimingRow& t : results.timing) total_ms += t.stage == "latency" ? 0 : t.ms;
   if (info.scans > 0) info.ms_per_scan = total_ms / static_cast<double>(info.scans);
   if (info.localized_scans == 0) {
-    info.last_reason = localizer.map().keyframes.empty() ? "too little was seen to begin a map" : localizer.last_match().reason;
+    info.last_reason = localizer.map().keyframes.empty()        ? "too little was seen to begin a map"
+                       : localizer.T_plan_map()                  ? "found only after the last scan, when the graph had caught up"
+                       : localizer.last_match().reason.empty()   ? "the recording ended before the first try"
+                                                                 : localizer.last_match().reason;
   }
   return info;
 }
@@ -266,6 +269,7 @@ Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
   if (info.interrupted) session.console.Error(fmt::format("interrupted after {} of {} scans; {} has what was known by then", info.scans, recording->size(), flags.output));
   if (!info.time_to_localize_s) {
     session.console.Info(fmt::format("{}: not localized in {} scans: {}", flags.output, info.scans, info.last_reason));
+    if (localizer.T_plan_map()) return Status::kFindings;
     session.console.Info("drive through more rooms; if that does not help: another plan or storey? `plumb validate` looks at the plan, `plumb doctor` at the recording");
     return Status::kFindings;
   }

@@ -29,12 +29,11 @@ struct AssimpLibrary {
   static Expected<AssimpLibrary> Load() {
     AssimpLibrary out;
     void* library = dlopen(PLUMB_ASSIMP_LIBRARY, RTLD_NOW | RTLD_LOCAL);
-    if (library != nullptr) {
-      out.import_file = reinterpret_cast<decltype(out.import_file)>(dlsym(library, "aiImportFileEx"));
-      out.error_string = reinterpret_cast<decltype(out.error_string)>(dlsym(library, "aiGetErrorString"));
-    }
+    if (library == nullptr) return Fail(ErrorCode::kFileUnreadable, fmt::format("meshes cannot be read: {}", dlerror()));
+    out.import_file = reinterpret_cast<decltype(out.import_file)>(dlsym(library, "aiImportFileEx"));
+    out.error_string = reinterpret_cast<decltype(out.error_string)>(dlsym(library, "aiGetErrorString"));
     if (out.import_file != nullptr && out.error_string != nullptr) return out;
-    return Fail(ErrorCode::kFileUnreadable, fmt::format("meshes cannot be read: {}", dlerror()));
+    return Fail(ErrorCode::kFileUnreadable, "meshes cannot be read: " PLUMB_ASSIMP_LIBRARY " is not the assimp that this program knows");
   }
 };
 

@@ -112,13 +112,35 @@ TEST(Localizer, SaysLostWhenBlindAndKeepsAPose) {
   for (int i = 0; i < 12; ++i) v = run.NextEmpty();
   EXPECT_EQ(v.verdict, Verdict::kLost);
   EXPECT_TRUE(v.T_plan_lidar);
-  EXPECT_FALSE(run.localizer.T_plan_map());
+  EXPECT_TRUE(run.localizer.T_plan_map());  // nobody knows where the robot is; the map is where it was
   // Sight comes back where it went: the robot is found in its map again.
   run.paused_s = run.time_s - blind_from_s;
   run.time_s = blind_from_s;
   EXPECT_EQ(run.Next().verdict, Verdict::kLocalized);
   for (int i = 0; i < 10; ++i) run.Next();
   EXPECT_LT(ErrorOf(*run.Next().T_plan_lidar, run.TruthAt(run.time_s - kPeriod_s)).position_m, 0.06);
+}
+
+TEST(Localizer, KeepsWhatItKnowsWhenTheRecordingEndsInNothing) {
+  const AGraph house = test::MakeHouse();
+  Session run(house, house);
+  ASSERT_GT(run.Until(Verdict::kLocalized), 0);
+  const size_t scans = run.localizer.SmoothedTrajectory().size();
+  for (int i = 0; i < 5; ++i) (void)run.NextEmpty();
+  run.localizer.Finish();
+  EXPECT_TRUE(run.localizer.T_plan_map());
+  EXPECT_EQ(run.localizer.SmoothedTrajectory().size(), scans);
+}
+
+TEST(Localizer, TakesNoHarmFromScansThatComeTwice) {
+  const AGraph house = test::MakeHouse();
+  Session run(house, house);
+  ASSERT_GT(run.Until(Verdict::kLocalized), 0);
+  const Scan last = run.lidar.Sweep([&](double t_s) { return run.TruthAt(t_s); }, run.time_s);
+  EXPECT_EQ(run.localizer.AddScan(last, std::nullopt).verdict, Verdict::kLocalized);
+  for (int i = 0; i < 5; ++i) EXPECT_FALSE(run.localizer.AddScan(last, std::nullopt).in_order);
+  run.time_s += kPeriod_s;
+  EXPECT_EQ(run.Next().verdict, Verdict::kLocalized);
 }
 
 // Carried from one room into another between two scans.

@@ -243,7 +243,9 @@ struct GraphEstimator::Impl {
   }
 
   [[nodiscard]] DeviationReport Deviations() const {
-    DeviationReport report = AssessDeviations(plan, joint, options.deviations);
+    // What a planar laser takes for a wall may be the shelf in front of it: it is good enough to be found by, not to blame a wall for.
+    DeviationReport report = AssessDeviations(plan, mapper.graph().planar ? JointResult() : joint, options.deviations);
+    if (mapper.graph().planar) report.gauge = "A planar laser sees walls and furniture alike, on one line: walls are not judged.";
     for (size_t i = 0; i < earlier_surfaces.size(); ++i) {
       if (report.surfaces[i].status == SurfaceStatus::kUnobserved) report.surfaces[i] = earlier_surfaces[i];
     }

@@ -115,6 +115,7 @@ TEST_F(EndToEnd, FindsAPlanarLaserInFurnishedOffices) {
   EXPECT_EQ(Plumb(folder_, "localize offices.agraph '" + recording + "' --start 53 --max-duration 40 -q -o planar/"), 0);
   EXPECT_EQ(Plumb(folder_, "evaluate planar/ --truth '" + recording + "' --json planar.json --require-localized-within 20 --require-ate 0.10"), 0);
   EXPECT_TRUE(ReadJson(folder_ / "planar.json").at("in_plane").get<bool>());
+  for (const auto& surface : ReadJson(folder_ / "planar" / "deviations.json").at("surfaces")) EXPECT_EQ(surface.at("status"), "unobserved");
 }
 
 TEST_F(EndToEnd, RefusesBadInputWithStatusTwo) {

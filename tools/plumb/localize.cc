@@ -90,7 +90,7 @@ class Collector {
   bool paced_;
   Console& console_;
   const InterruptGuard interrupt_;
-  Error last_error_{ErrorCode::kBadScan, "no scan"};
+  Error last_error_{ErrorCode::kBadScan, "no scan lies between --start and the end of the recording"};
   std::vector<double> latencies_ms_;
   Results results_;
 };

@@ -22,8 +22,9 @@ struct ScanVerdict {
 // What a given odometry (any start frame) says of the lidar's motion during `scan`; none where it does not cover the sweep.
 [[nodiscard]] std::optional<Odometry::GivenMotion> GivenMotionDuring(const Scan& scan, const Trajectory& given_odometry);
 
-// Deterministic, whatever threads the matcher uses: the same scans give the same verdicts, poses and deviations. The steps of AddScan() share no state, so
-// that each may run on a thread of its own, as long as every one of them gets the scans in their order (replay.h, online_localizer.h).
+// Deterministic, whatever threads the matcher uses: the same scans give the same verdicts, poses and deviations. The steps of AddScan() share
+// no state, so that each may run on a thread of its own, as long as every one of them gets the scans in their order (replay.h,
+// online_localizer.h).
 class Localizer {
  public:
   // `plan` must outlive it; `options` must pass Check().

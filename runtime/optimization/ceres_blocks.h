@@ -3,7 +3,15 @@
 
 #include <ceres/ceres.h>
 
+#include <array>
+
+#include "runtime/optimization/residuals.h"
+
 namespace plumb::runtime {
+
+inline constexpr double kOdometryLoss = 3.0;  // in sigmas
+// Far weaker than any observation: keeps planes regular that only a line of points was seen of.
+inline constexpr std::array<double, kPlaneSize> kPlaneWeight{1.0, 1.0, 1.0, 0.1};
 
 using PoseManifold = ceres::ProductManifold<ceres::EigenQuaternionManifold, ceres::EuclideanManifold<3>>;  // qx qy qz qw tx ty tz
 using PlaneManifold = ceres::ProductManifold<ceres::SphereManifold<3>, ceres::EuclideanManifold<1>>;       // n d

@@ -22,8 +22,7 @@ constexpr double kAnchorSigma_m = 1e-4, kAnchorSigma_rad = 1e-4;
 // Far weaker than any observation: they only keep the problem regular where nothing was observed (a corridor, no floor, a line of points).
 constexpr std::array<double, kPlaceSize> kPlaceWeight{0.1, 0.1, 0.1, 1.0};
 constexpr double kHeldHeight_m = 0.005;  // without floor or ceiling, walls a thousandth off plumb would drag the height along by metres
-constexpr std::array<double, kPlaneSize> kPlaneWeight{1.0, 1.0, 1.0, 0.1};
-constexpr double kOdometryLoss = 3.0, kLoopLoss = 2.0;  // in sigmas
+constexpr double kLoopLoss = 2.0;  // in sigmas
 
 }  // namespace
 

@@ -13,9 +13,7 @@
 namespace plumb::runtime {
 namespace {
 
-constexpr double kOdometryLoss = 3.0;  // in sigmas
 constexpr int kMaxIterations = 10;
-constexpr std::array<double, kPlaneSize> kPlaneWeight{1.0, 1.0, 1.0, 0.1};  // only keeps planes regular that a line of points was seen of
 
 class Window {
  public:

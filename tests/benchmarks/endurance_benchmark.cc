@@ -8,7 +8,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <optional>
@@ -16,6 +15,7 @@
 #include <vector>
 
 #include "runtime/localizer/localizer.h"
+#include "runtime/localizer/stopwatch.h"
 #include "schema/agraph_reader.h"
 #include "tools/simulate/as_built.h"
 #include "tools/simulate/reach.h"
@@ -95,17 +95,6 @@ double Memory_MB() {
   return static_cast<double>(resident) * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
-class Stopwatch {
- public:
-  double Lap() {
-    const auto now = std::chrono::steady_clock::now();
-    return std::chrono::duration<double, std::milli>(now - std::exchange(start_, now)).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
-
 int Localize(const AGraph& plan, int in) {
   runtime::Localizer localizer(plan);
   fmt::print("{:>7} {:>9} {:>10} {:>10} {:>13} {:>10} {:>9} {:>9} {:>10}\n", "minute", "RSS MB", "keyframes", "surfaces", "odometry ms", "graph ms", "behind s",
@@ -135,7 +124,7 @@ int Localize(const AGraph& plan, int in) {
     scan.points.resize(header.points);
     scan.time_s.resize(header.points);
     if (!ReadAll(in, scan.points.data(), header.points * sizeof(Eigen::Vector3f)) || !ReadAll(in, scan.time_s.data(), header.points * sizeof(float))) break;
-    Stopwatch watch;
+    runtime::Stopwatch watch;
     const runtime::RegisteredScan registered = localizer.Register(scan, std::nullopt);
     odometry_ms += watch.Lap();
     const runtime::ScanVerdict verdict = localizer.Track(registered, localizer.UpdateGraph(registered));
@@ -149,7 +138,7 @@ int Localize(const AGraph& plan, int in) {
     const Eigen::Map<const Eigen::Matrix4d> truth(header.T_plan_lidar.data());
     worst_m = std::max(worst_m, (verdict.T_plan_lidar->translation() - truth.block<3, 1>(0, 3)).norm());
   }
-  Stopwatch watch;
+  runtime::Stopwatch watch;
   localizer.Finish();
   fmt::print("final solve {:.1f} s, then {:.0f} MB\n", watch.Lap() / 1e3, Memory_MB());
   return 0;

@@ -2,16 +2,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
 
 #include "runtime/sources/recording.h"
-#include "schema/files.h"
+#include "tests/support/program.h"
 #include "tests/support/room_overlap.h"
 
 namespace plumb {
@@ -19,19 +17,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-
-// Runs `plumb ARGUMENTS` in `folder`; its exit status.
-int Plumb(const fs::path& folder, const std::string& arguments) {
-  const std::string command = "cd '" + folder.string() + "' && '" PLUMB_PROGRAM "' " + arguments;
-  const int status = std::system(command.c_str());
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
-Json ReadJson(const fs::path& path) {
-  const auto text = ReadFileText(path.string());
-  EXPECT_TRUE(text) << text.error().message;
-  return text ? Json::parse(*text) : Json();
-}
+using test::Plumb;
+using test::ReadJson;
 
 class EndToEnd : public ::testing::Test {
  protected:

@@ -1,16 +1,14 @@
 // The rooms of a real house, from a simulated tour through it to sgraph.json.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 
-#include "schema/files.h"
+#include "tests/support/program.h"
 #include "tests/support/room_overlap.h"
 
 namespace plumb {
@@ -18,17 +16,8 @@ namespace {
 
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
-
-int Plumb(const fs::path& folder, const std::string& arguments) {
-  const std::string command = "cd '" + folder.string() + "' && '" PLUMB_PROGRAM "' " + arguments;
-  const int status = std::system(command.c_str());
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
-
-Json ReadJson(const fs::path& path) {
-  const auto text = ReadFileText(path.string());
-  return text ? Json::parse(*text) : Json::object();
-}
+using test::Plumb;
+using test::ReadJson;
 
 // Rooms that the plan parts by a line and no wall: nothing tells a robot where one ends.
 std::set<int> PartsOfOpenPlans(const Json& plan) {

@@ -82,7 +82,7 @@ struct GraphEstimator::Impl {
 
   // Tries to find the map in the plan. A try that leaves several places open is no fix.
   void Search(double stamp_s, const Eigen::Isometry3d& T_odom_lidar) {
-    last_try = std::make_shared<const MatchTry>(MatchTry{stamp_s, mapper.T_map_odom() * T_odom_lidar, matcher.Match(mapper.graph())});
+    last_try = std::make_shared<const MatchTry>(MatchTry{stamp_s, mapper.T_map_odom() * T_odom_lidar, matcher.Match(mapper.graph(), odometry_map == 0 ? options.hint : StartHint())});
     const MatchResult& match = last_try->result;
     switch (match.verdict) {
       case MatchResult::Verdict::kSearching:

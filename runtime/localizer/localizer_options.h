@@ -7,6 +7,7 @@
 #include "runtime/deviations/deviations.h"
 #include "runtime/mapping/mapper_options.h"
 #include "runtime/matching/matcher.h"
+#include "runtime/matching/start_hint.h"
 #include "runtime/odometry/odometry.h"
 #include "runtime/optimization/joint_optimizer.h"
 
@@ -19,6 +20,7 @@ struct LocalizerOptions {
   int rescore_every = 10;          // keyframes between two re-scorings of the fix against its rivals and against "outside the plan"
   int lost_after = 2;              // as many re-scorings in a row that speak against the fix end it
   double rival_margin_nats = 5.0;  // a rival must be better by this much to count against the fix
+  StartHint hint;                  // of the place where the first scan was taken; until the robot is carried off
   OdometryOptions odometry;
   MapperOptions mapper;
   MatcherOptions matcher;

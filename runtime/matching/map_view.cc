@@ -207,6 +207,7 @@ MapView ViewMap(const SGraph& map, const MatcherOptions& options) {
   const Eigen::Vector2d at = map.keyframes.empty() ? view.center_m : map.keyframes.front().T_map_kf.translation().head<2>().eval();
   view.floor_z_m = DominantHeight(map, SurfaceKind::kFloor, at);
   view.ceiling_z_m = DominantHeight(map, SurfaceKind::kCeiling, at);
+  view.start_m = at - view.center_m;
   if (!map.keyframes.empty()) view.sensor_z_m = map.keyframes.front().T_map_kf.translation().z();
   view.lowest_z_m = LowestHeight(map);
   view.rays = SampleRays(map, view, options);

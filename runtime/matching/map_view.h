@@ -42,7 +42,8 @@ struct MapView {
   std::vector<MapWall> walls;                          // at least 0.4 m long and upright
   double wall_length_m = 0;                            // of all of them
   std::optional<double> floor_z_m, ceiling_z_m;
-  double sensor_z_m = 0, lowest_z_m = 0;               // of the first keyframe's sensor; of the points (1st percentile)
+  Eigen::Vector2d start_m = Eigen::Vector2d::Zero();   // of the first keyframe's sensor, ...
+  double sensor_z_m = 0, lowest_z_m = 0;               // ... its height; height of the points (1st percentile)
   std::vector<MapRay> rays;                            // every k-th is again spread over keyframes and directions
   RangeBackground background{{}};
 };

@@ -30,12 +30,12 @@ class PoseSearch {
   PoseSearch(const AGraph& image, const PoseSearch& original) : plan(image, original.plan), options(original.options) {}
 
   // Refined and judged by all rays, best first.
-  [[nodiscard]] std::vector<Candidate> Finalists(const MapView& map) const {
+  [[nodiscard]] std::vector<Candidate> Finalists(const MapView& map, const StartHint& hint = {}) const {
     std::vector<PlanarPose> poses;
     for (const Proposal& p : ProposePoses(plan, map, options)) poses.push_back(p.pose);
-    std::vector<Candidate> candidates = SortAndMerge(Judged(map, poses));
+    std::vector<Candidate> candidates = SortAndMerge(Judged(map, poses, hint));
     if (!plan.plan().aliases.empty()) {
-      const std::vector<Candidate> aliased = Judged(map, Aliases(candidates));
+      const std::vector<Candidate> aliased = Judged(map, Aliases(candidates), hint);
       candidates.insert(candidates.end(), aliased.begin(), aliased.end());
       candidates = SortAndMerge(std::move(candidates));
     }
@@ -97,13 +97,21 @@ class PoseSearch {
     return best;
   }
 
+  // Of the robot, plan frame.
+  [[nodiscard]] Eigen::Vector3d StartOf(const MapView& map, const PlanarPose& pose) const {
+    const Eigen::Vector2d start_m = pose.rotation() * map.start_m + pose.t_m;
+    return plan.plan().origin + Eigen::Vector3d(start_m.x(), start_m.y(), map.sensor_z_m + pose.z_m);
+  }
+
   // Refined and judged by a few rays.
-  [[nodiscard]] std::vector<Candidate> Judged(const MapView& map, const std::vector<PlanarPose>& poses) const {
+  [[nodiscard]] std::vector<Candidate> Judged(const MapView& map, const std::vector<PlanarPose>& poses, const StartHint& hint) const {
     std::vector<Candidate> candidates(poses.size());
     const size_t stride = CoarseStride(map);
     oneapi::tbb::parallel_for(size_t{0}, poses.size(), [&](size_t i) {
       const WallFit fit = RefineOnWalls(plan, map, poses[i]);
-      if (!fit.pairs.empty()) candidates[i] = Judged(map, fit, stride);
+      if (fit.pairs.empty()) return;
+      candidates[i] = Judged(map, fit, stride);
+      candidates[i].log_prior = LogPrior(plan.plan(), hint, StartOf(map, candidates[i].fit.pose));
     });
     std::erase_if(candidates, [](const Candidate& c) { return c.fit.pairs.empty(); });
     return candidates;
@@ -137,6 +145,8 @@ std::string MatcherOptions::Check() const {
   if (!(rays_per_independent >= 1)) return bad("rays_per_independent", rays_per_independent, "at least 1");
   if (!(accept_probability > 0.5 && accept_probability < 1)) return bad("accept_probability", accept_probability, "in (0.5, 1)");
   if (!(accept_margin_nats > 0)) return bad("accept_margin_nats", accept_margin_nats, "positive");
+  if (!(hint_lead_nats > 0)) return bad("hint_lead_nats", hint_lead_nats, "positive");
+  if (!(hint_tie_nats >= 0)) return bad("hint_tie_nats", hint_tie_nats, "at least 0");
   if (!(accept_sigma_xy_m > 0)) return bad("accept_sigma_xy_m", accept_sigma_xy_m, "positive");
   if (!(accept_sigma_yaw_rad > 0)) return bad("accept_sigma_yaw_rad", accept_sigma_yaw_rad, "positive");
   if (accept_min_planes < 3) return bad("accept_min_planes", accept_min_planes, "at least 3");
@@ -175,7 +185,7 @@ struct Matcher::Impl {
 Matcher::Matcher(const AGraph& plan, const MatcherOptions& options) : impl_(std::make_unique<Impl>(plan, options)) {}
 Matcher::~Matcher() = default;
 
-MatchResult Matcher::Match(const SGraph& map) const {
+MatchResult Matcher::Match(const SGraph& map, const StartHint& hint) const {
   const PoseSearch& search = impl_->search;
   const MapView view = ViewMap(map, search.options);
   MatchResult result;
@@ -187,7 +197,7 @@ MatchResult Matcher::Match(const SGraph& map) const {
     result.reason = "the map has fewer than two walls";
     return result;
   }
-  const std::vector<Candidate> finalists = search.Finalists(view);
+  const std::vector<Candidate> finalists = search.Finalists(view, hint);
   const AGraph& plan = search.plan.plan();
   WrongPlans wrong;
   if (!finalists.empty() && !WallsTellScale(finalists.front().fit, search.options)) wrong.scaled = search.ScaledLikelihood(view, finalists.front());

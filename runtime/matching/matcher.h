@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "runtime/mapping/sgraph.h"
+#include "runtime/matching/start_hint.h"
 #include "schema/agraph.h"
 
 namespace plumb::runtime {
@@ -25,6 +26,8 @@ struct MatcherOptions {
   double rays_per_independent = 30; // correlation: log-likelihoods are divided by this
   double accept_probability = 0.999;
   double accept_margin_nats = 10.0;
+  // A hint that prefers a place by hint_lead_nats decides for it against others that the evidence prefers by hint_tie_nats at most.
+  double hint_lead_nats = 5.0, hint_tie_nats = 1.0;
   double accept_sigma_xy_m = 0.10;
   double accept_sigma_yaw_rad = 0.0087;
   int accept_min_planes = 5;                  // of the plan's walls that the map agrees with; one more for 4 rooms, two for 32, ...
@@ -51,7 +54,7 @@ struct MatcherOptions {
 struct Hypothesis {
   Eigen::Isometry3d T_plan_map = Eigen::Isometry3d::Identity();  // gravity-aligned: yaw and translation only
   StoreyId storey;
-  double log_likelihood = 0;  // relative to "outside the plan"
+  double log_likelihood = 0;  // relative to "outside the plan"; with what a hint says
   double probability = 0;
   double sigma_xy_m = 0, sigma_yaw_rad = 0;  // of the map's middle in the plan
   // What speaks for it and against it: planes of the plan that agree, their share of the map's walls, shares of the rays that ended on what the
@@ -74,8 +77,8 @@ class Matcher {
   Matcher(const AGraph& plan, const MatcherOptions& options = {});
   ~Matcher();
 
-  // All hypotheses from nothing. Deterministic.
-  [[nodiscard]] MatchResult Match(const SGraph& map) const;
+  // All hypotheses, from nothing or from a hint where the map's first keyframe was. Deterministic.
+  [[nodiscard]] MatchResult Match(const SGraph& map, const StartHint& hint = {}) const;
 
   // Log-likelihood of one pose, on the same scale as Hypothesis::log_likelihood: for re-scoring an accepted fix against its rivals.
   [[nodiscard]] double Score(const SGraph& map, const Eigen::Isometry3d& T_plan_map) const;

@@ -30,7 +30,7 @@ Hypothesis ToHypothesis(const Candidate& candidate, const MapView& map, const Ei
   h.T_plan_map.translation().head<2>() = origin.head<2>() + pose.t_m - R * map.center_m;
   h.T_plan_map.translation().z() = origin.z() + pose.z_m;
   h.storey = candidate.storey;
-  h.log_likelihood = candidate.rays.log_likelihood;
+  h.log_likelihood = candidate.score();
   h.consistent_planes = candidate.fit.consistent_planes;
   h.consistent_ratio = candidate.fit.consistent_ratio;
   h.explained_ratio = candidate.rays.explained_ratio;
@@ -49,6 +49,13 @@ void SetProbabilities(MatchResult& result, double outside) {
   for (Hypothesis& h : result.hypotheses) h.probability = std::exp(h.log_likelihood - highest) / sum;
 }
 
+// Could `other` be the place as well as `best`? Where the evidence cannot tell, a hint may.
+bool IsRival(const Candidate& best, const Candidate& other, const MatcherOptions& options) {
+  if (best.score() - other.score() >= options.accept_margin_nats) return false;
+  const bool hinted = best.log_prior - other.log_prior >= options.hint_lead_nats;
+  return !hinted || best.rays.log_likelihood < other.rays.log_likelihood - options.hint_tie_nats;
+}
+
 }  // namespace
 
 bool Distinct(const Candidate& a, const Candidate& b) {
@@ -59,7 +66,7 @@ bool Distinct(const Candidate& a, const Candidate& b) {
 
 std::vector<Candidate> SortAndMerge(std::vector<Candidate> candidates) {
   std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.rays.log_likelihood > b.rays.log_likelihood; });
+                   [](const Candidate& a, const Candidate& b) { return a.score() > b.score(); });
   std::vector<Candidate> kept;
   for (Candidate& c : candidates) {
     if (std::all_of(kept.begin(), kept.end(), [&](const Candidate& k) { return Distinct(k, c); })) kept.push_back(std::move(c));
@@ -67,8 +74,9 @@ std::vector<Candidate> SortAndMerge(std::vector<Candidate> candidates) {
   return kept;
 }
 
-int RequiredPlanes(size_t num_rooms, const MatcherOptions& options) {
-  return options.accept_min_planes + static_cast<int>(std::lround(std::log10(std::max<double>(1, static_cast<double>(num_rooms)))));
+int RequiredPlanes(size_t num_rooms, double log_prior, const MatcherOptions& options) {
+  const double like_this = static_cast<double>(num_rooms) * std::exp(-std::max(0.0, log_prior));
+  return options.accept_min_planes + static_cast<int>(std::lround(std::log10(std::max(1.0, like_this))));
 }
 
 bool RaysVouch(const std::vector<Candidate>& sorted, double mirrored, bool planar, const MatcherOptions& options) {
@@ -126,18 +134,19 @@ MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, con
   if (rays_vouch) SetSigmas(sorted.front().fit.place_information, result.hypotheses.front());
   SetProbabilities(result, std::max(0.0, wrong.mirrored));
   const Hypothesis& best = result.hypotheses.front();
-  if (best.log_likelihood < options.accept_margin_nats) {
-    result.reason = fmt::format("the best pose is no better than a place outside the plan ({:+.1f} nats)", best.log_likelihood);
+  // A hint says where in the plan, not that it is the building's: here only the evidence counts.
+  const double evidence = sorted.front().rays.log_likelihood;
+  if (evidence < options.accept_margin_nats) {
+    result.reason = fmt::format("the best pose is no better than a place outside the plan ({:+.1f} nats)", evidence);
     return result;
   }
-  if (best.log_likelihood - wrong.mirrored < options.accept_margin_nats) {
-    result.reason = fmt::format("a mirror image of the plan fits about as well ({:+.1f} nats)", wrong.mirrored - best.log_likelihood);
+  if (evidence - wrong.mirrored < options.accept_margin_nats) {
+    result.reason = fmt::format("a mirror image of the plan fits about as well ({:+.1f} nats)", wrong.mirrored - evidence);
     return result;
   }
-  const auto rivals = std::count_if(result.hypotheses.begin() + 1, result.hypotheses.end(), [&](const Hypothesis& h) {
-    return best.log_likelihood - h.log_likelihood < options.accept_margin_nats;
-  });
-  result.reason = Doubt(sorted.front(), best, RequiredPlanes(plan.rooms.size(), options), rays_vouch, wrong.scaled, options);
+  const auto rivals = std::count_if(sorted.begin() + 1, sorted.begin() + static_cast<ptrdiff_t>(n),
+                                    [&](const Candidate& c) { return IsRival(sorted.front(), c, options); });
+  result.reason = Doubt(sorted.front(), best, RequiredPlanes(plan.rooms.size(), sorted.front().log_prior, options), rays_vouch, wrong.scaled, options);
   if (!result.reason.empty()) {
     if (rivals > 0) result.reason += fmt::format("; {} other places in the plan look alike", rivals);
     return result;

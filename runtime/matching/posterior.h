@@ -15,6 +15,9 @@ struct Candidate {
   WallFit fit;
   RayEvidence rays;
   StoreyId storey;
+  double log_prior = 0;  // of the robot's start, by a hint
+
+  [[nodiscard]] double score() const { return rays.log_likelihood + log_prior; }
 };
 
 // Log-likelihoods of the best poses in plans that are not the building's.
@@ -33,8 +36,8 @@ struct WrongPlans {
 [[nodiscard]] MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, const AGraph& plan,
                                  const MatcherOptions& options, const WrongPlans& wrong = {});
 
-// Planes that must agree in a plan of so many rooms: the more there are, the more of them look alike by chance.
-[[nodiscard]] int RequiredPlanes(size_t num_rooms, const MatcherOptions& options);
+// Planes that must agree in a plan of so many rooms: the more there are, the more of them look alike by chance. A hint leaves fewer of them.
+[[nodiscard]] int RequiredPlanes(size_t num_rooms, double log_prior, const MatcherOptions& options);
 
 // Whether the rays alone tell the place (see MatcherOptions) of a map, by a planar laser or another. `sorted` must not be empty.
 [[nodiscard]] bool RaysVouch(const std::vector<Candidate>& sorted, double mirrored, bool planar, const MatcherOptions& options);

@@ -29,6 +29,8 @@ struct LocalizeFlags {
   std::string plan, recording, output;
   bool no_odometry = false;
   double tolerance_deg = 0.5;
+  std::vector<double> near_m;
+  std::vector<std::string> rooms;
   double map_voxel_m = 0.02;
   runtime::LocalizerOptions options;
   runtime::ReplayOptions replay;
@@ -243,6 +245,28 @@ Expected<void> WriteRun(const LocalizeFlags& flags, const AGraph& plan, const Re
   return {};
 }
 
+// Errors: kBadOption (no such room, with the nearest name; out of range).
+Expected<runtime::StartHint> HintOf(const LocalizeFlags& flags, const AGraph& plan) {
+  runtime::StartHint hint;
+  if (flags.near_m.size() == 1) return Fail(ErrorCode::kBadOption, fmt::format("--near {}; must be X,Y or X,Y,SIGMA, m", flags.near_m[0]));
+  if (!flags.near_m.empty()) hint.near_m = Eigen::Vector2d(flags.near_m[0], flags.near_m[1]);
+  if (flags.near_m.size() == 3) hint.near_sigma_m = flags.near_m[2];
+  for (const std::string& name : flags.rooms) {
+    std::vector<std::string> names;
+    const size_t before = hint.rooms.size();
+    for (size_t i = 0; i < plan.rooms.size(); ++i) {
+      if (plan.rooms[i].name == name || plan.rooms[i].guid == name) hint.rooms.emplace_back(i);
+      names.push_back(plan.rooms[i].name);
+    }
+    if (hint.rooms.size() > before) continue;
+    const std::string near = NearestName(name, names);
+    return Fail(ErrorCode::kBadOption, fmt::format("--room {}: the plan has no such room{}; `plumb inspect` lists them", name,
+                                                   near.empty() ? "" : fmt::format("; did you mean `{}`?", near)));
+  }
+  if (std::string wrong = hint.Check(); !wrong.empty()) return Fail(ErrorCode::kBadOption, std::move(wrong));
+  return hint;
+}
+
 // Before hours of work: can the results be written?
 Expected<void> PrepareOutput(const std::string& folder) {
   std::error_code error;
@@ -263,6 +287,11 @@ Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
   if (!(flags.map_voxel_m > 0)) return session.Fail({ErrorCode::kBadOption, fmt::format("--map-voxel {}; must be positive", flags.map_voxel_m)});
   const auto plan = ReadAGraphFile(flags.plan);
   if (!plan) return session.Fail(plan.error());
+  if (const auto hint = HintOf(flags, *plan); hint) {
+    flags.options.hint = *hint;
+  } else {
+    return session.Fail(hint.error());
+  }
   const auto recording = runtime::Recording::Open(flags.recording);
   if (!recording) return session.Fail(recording.error());
   if (const auto ready = PrepareOutput(flags.output); !ready) return session.Fail(ready.error());
@@ -307,6 +336,11 @@ void AddLocalize(CLI::App& app, Session& session) {
   sub->add_option("FILE.agraph", flags->plan, "the plan")->required();
   sub->add_option("REC", flags->recording, "recording folder: scans/*.pcd and, where there is one, odometry.tum")->required();
   sub->add_option("-o,--output", flags->output, "the run folder to write")->required()->type_name("RUN");
+  sub->add_option("--near", flags->near_m, "the robot starts about here, plan frame; SIGMA is 2 unless given, m. A hint: what the robot sees may overrule it")
+      ->expected(2, 3)
+      ->delimiter(',')
+      ->type_name("X,Y[,SIGMA]");
+  sub->add_option("--room", flags->rooms, "the robot starts in a room of this name (or source id); may be given again, for either. A hint")->type_name("NAME");
   sub->add_flag("--no-odometry", flags->no_odometry, "do without the recording's odometry.tum");
   sub->add_option("--start", flags->replay.start_s, "leave out this much of the recording at its beginning, s");
   sub->add_option("--max-duration", flags->replay.max_duration_s, "stop after this much of the rest; 0: all of it, s");

@@ -46,6 +46,29 @@ TEST(Decide, TwoPlacesAlikeAreAmbiguous) {
   EXPECT_NEAR(result.hypotheses[0].probability / result.hypotheses[1].probability, std::exp(2.0), 1e-6);
 }
 
+// As a hint sees them: the one as the robot's start, the other not.
+MatchResult DecidedWithHint(double hinted, double other) {
+  Candidate a = Good(hinted), b = Good(other, 5);
+  a.log_prior = 0.7;
+  b.log_prior = -6.9;
+  return Decided({a, b});
+}
+
+TEST(Decide, AHintTellsApartWhatTheEvidenceDoesNot) {
+  EXPECT_EQ(DecidedWithHint(100, 100).verdict, Verdict::kUnique);
+  EXPECT_EQ(DecidedWithHint(100, 100.5).verdict, Verdict::kUnique);
+  EXPECT_EQ(DecidedWithHint(100, 103).verdict, Verdict::kAmbiguous) << "the evidence prefers the other";
+  const MatchResult overruled = DecidedWithHint(100, 120);
+  EXPECT_EQ(overruled.verdict, Verdict::kUnique);
+  EXPECT_NEAR(overruled.hypotheses.front().log_likelihood, 120 - 6.9, 1e-9);
+}
+
+TEST(Decide, AHintIsNoEvidenceForThePlan) {
+  Candidate poor = Good(9);
+  poor.log_prior = 5;
+  EXPECT_EQ(Decided({poor}).verdict, Verdict::kSearching);
+}
+
 TEST(Decide, OutsideThePlanWinsOverAPoorPlace) {
   const MatchResult result = Decided({Good(1)});
   EXPECT_EQ(result.verdict, Verdict::kSearching);
@@ -113,8 +136,10 @@ TEST(Doubt, FewPlanesAreEnoughOnlyWhereRaysVouch) {
 
 TEST(RequiredPlanes, GrowWithTheNumberOfRooms) {
   const MatcherOptions options;
-  EXPECT_EQ(RequiredPlanes(1, options), options.accept_min_planes);
-  EXPECT_EQ(RequiredPlanes(1000, options), options.accept_min_planes + 3);
+  EXPECT_EQ(RequiredPlanes(1, 0, options), options.accept_min_planes);
+  EXPECT_EQ(RequiredPlanes(1000, 0, options), options.accept_min_planes + 3);
+  EXPECT_EQ(RequiredPlanes(1000, std::log(100), options), options.accept_min_planes + 1) << "a hint leaves ten of them";
+  EXPECT_EQ(RequiredPlanes(1000, -7, options), options.accept_min_planes + 3) << "a place that the hint speaks against";
 }
 
 }  // namespace

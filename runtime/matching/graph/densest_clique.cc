@@ -103,21 +103,51 @@ Eigen::VectorXd LeadingEigenvector(const Eigen::MatrixXd& affinity) {
   return u;
 }
 
+std::vector<Eigen::Index> HeaviestFirst(const Eigen::MatrixXd& affinity) {
+  const Eigen::VectorXd weights = affinity.rowwise().sum();
+  std::vector<Eigen::Index> order(static_cast<size_t>(affinity.rows()));
+  std::iota(order.begin(), order.end(), Eigen::Index{0});
+  std::stable_sort(order.begin(), order.end(), [&](Eigen::Index a, Eigen::Index b) { return weights(a) > weights(b); });
+  return order;
+}
+
 }  // namespace
 
 Clique DensestClique(const Eigen::MatrixXd& affinity, const DensestCliqueOptions& options) {
   if (affinity.rows() == 0) return {};
   const Relaxation relaxation(affinity, options);
-  const Eigen::VectorXd weights = affinity.rowwise().sum();
-  std::vector<Eigen::Index> heaviest(static_cast<size_t>(affinity.rows()));
-  std::iota(heaviest.begin(), heaviest.end(), Eigen::Index{0});
-  std::stable_sort(heaviest.begin(), heaviest.end(), [&](Eigen::Index a, Eigen::Index b) { return weights(a) > weights(b); });
+  const std::vector<Eigen::Index> heaviest = HeaviestFirst(affinity);
   Clique best = Round(affinity, relaxation.Solve(LeadingEigenvector(affinity)));
   for (size_t i = 0; i + 1 < static_cast<size_t>(options.starts) && i < heaviest.size(); ++i) {
     Clique clique = Round(affinity, relaxation.Solve(affinity.col(heaviest[i])));
     if (clique.density > best.density) best = std::move(clique);
   }
   return best;
+}
+
+std::vector<Clique> CoveringCliques(const Eigen::MatrixXd& affinity, const DensestCliqueOptions& options) {
+  std::vector<Clique> cliques;
+  std::vector<bool> covered(static_cast<size_t>(affinity.rows()), false);
+  for (Eigen::Index seed : HeaviestFirst(affinity)) {
+    if (covered[static_cast<size_t>(seed)]) continue;
+    std::vector<Eigen::Index> near;
+    for (Eigen::Index i = 0; i < affinity.rows(); ++i) {
+      if (i != seed && affinity(seed, i) > 0) near.push_back(i);
+    }
+    // The densest clique of the neighbours, and the seed: it agrees with all of them.
+    Clique clique = DensestClique(affinity(near, near), options);
+    double to_seed = 0;
+    for (size_t& member : clique.members) {
+      member = static_cast<size_t>(near[member]);
+      to_seed += affinity(seed, static_cast<Eigen::Index>(member));
+    }
+    const auto size = static_cast<double>(clique.members.size());
+    clique.density = (size * clique.density + 2 * to_seed + 1) / (size + 1);
+    clique.members.insert(std::upper_bound(clique.members.begin(), clique.members.end(), static_cast<size_t>(seed)), static_cast<size_t>(seed));
+    for (size_t member : clique.members) covered[member] = true;
+    cliques.push_back(std::move(clique));
+  }
+  return cliques;
 }
 
 }  // namespace plumb::runtime

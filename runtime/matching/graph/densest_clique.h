@@ -28,4 +28,8 @@ struct Clique {
 // with exhaustive search). O(starts * penalties * steps * n^2) at most; in practice some 100 n^2 per start.
 [[nodiscard]] Clique DensestClique(const Eigen::MatrixXd& affinity, const DensestCliqueOptions& options = {});
 
+// Distinct cliques that cover all vertices: the densest in a vertex's neighbourhood, then in that of the heaviest vertex in none of them yet, and
+// so on. What is consistent in several ways (a room and itself turned by 180 degrees) is found in each of them. In the order found.
+[[nodiscard]] std::vector<Clique> CoveringCliques(const Eigen::MatrixXd& affinity, const DensestCliqueOptions& options = {});
+
 }  // namespace plumb::runtime

@@ -9,9 +9,15 @@
 namespace plumb::runtime {
 namespace {
 
+constexpr double kParallelSin = 0.3;  // built walls turn by up to 15 degrees
+
 double Gaussian(double difference, double sigma) { return std::exp(-0.5 * difference * difference / (sigma * sigma)); }
 
 double TurnBetween(const Eigen::Vector2d& from, const Eigen::Vector2d& to) { return std::atan2(Cross(from, to), from.dot(to)); }
+
+double TurnDifference(const WallPoint& plan_i, const WallPoint& plan_j, const WallPoint& map_i, const WallPoint& map_j) {
+  return std::abs(WrapAngle(TurnBetween(plan_i.normal, plan_j.normal) - TurnBetween(map_i.normal, map_j.normal)));
+}
 
 // Seen from wall i along its normal, wall j lies in front in one of plan and map and behind in the other.
 bool SwapsSides(const WallPoint& plan_i, const WallPoint& plan_j, const WallPoint& map_i, const WallPoint& map_j, double margin_m) {
@@ -52,11 +58,18 @@ double PointAffinity(const Eigen::Vector2d& plan_i, const Eigen::Vector2d& plan_
 
 double WallAffinity(const WallPoint& plan_i, const WallPoint& plan_j, const WallPoint& map_i, const WallPoint& map_j,
                     const WallConsistency& bounds) {
-  const double turn_rad = std::abs(WrapAngle(TurnBetween(plan_i.normal, plan_j.normal) - TurnBetween(map_i.normal, map_j.normal)));
+  const double turn_rad = TurnDifference(plan_i, plan_j, map_i, map_j);
   if (turn_rad >= bounds.epsilon_rad) return 0;
   if (SwapsSides(plan_i, plan_j, map_i, map_j, bounds.epsilon_m) || SwapsSides(plan_j, plan_i, map_j, map_i, bounds.epsilon_m)) return 0;
   const double distance = PointAffinity(plan_i.foot, plan_j.foot, map_i.foot, map_j.foot, {bounds.sigma_m, bounds.epsilon_m});
   return distance * Gaussian(turn_rad, bounds.sigma_rad);
+}
+
+double WallAffinityUpToShift(const WallPoint& plan_i, const WallPoint& plan_j, const WallPoint& map_i, const WallPoint& map_j,
+                             const WallConsistency& bounds) {
+  if (std::abs(Cross(plan_i.normal, plan_j.normal)) < kParallelSin) return WallAffinity(plan_i, plan_j, map_i, map_j, bounds);
+  const double turn_rad = TurnDifference(plan_i, plan_j, map_i, map_j);
+  return turn_rad < bounds.epsilon_rad ? Gaussian(turn_rad, bounds.sigma_rad) : 0;
 }
 
 }  // namespace plumb::runtime

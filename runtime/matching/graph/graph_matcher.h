@@ -24,8 +24,9 @@ struct GraphMatcherOptions {
   double min_wall_score = 0.1;           // of the walls of a room
   double min_global_affinity = 0.2;      // mean over all walls of a candidate
   double min_deviated_affinity = 0.3;    // mean of a deviated wall with all matched ones
-  double symmetry_epsilon = 0.01;        // candidates whose scores differ by less are equally good
-  double min_matched_ratio = 0.5;        // of the walls of the map's rooms, counted as they agree; fewer are no match
+  double max_deviation_m = 0.5;          // what stands off further is another wall
+  double symmetry_epsilon = 0.01;        // candidates are equally good that differ by less, per wall of the map's rooms, in how much agrees
+  double min_matched_ratio = 0.5;        // of the walls of the map's rooms; fewer that agree are no match
   int min_rooms = 2;
   int max_room_pairs = 1500;             // the best are looked at: bounds the time
   int max_candidates = 64;               // whose walls without a room are looked at
@@ -50,7 +51,7 @@ struct GraphMatch {
   std::vector<RoomMatch> rooms;  // by map room
   std::vector<WallMatch> walls;  // by map wall
   PlanarPose pose;               // T_plan_map by the walls that do not deviate; z_m is 0
-  double score = 0;              // walls that agree, in walls of the map's rooms
+  double score = 0;              // share of the walls of the map's rooms that agree
   std::vector<PlanarPose> rivals;  // other places that are as good; when ambiguous
   size_t candidates = 0;         // consistent sets of rooms and walls
   std::string reason;            // why it is not unique; empty when it is
@@ -61,7 +62,8 @@ class GraphMatcher {
  public:
   explicit GraphMatcher(MatchGraph plan, const GraphMatcherOptions& options = {});
 
-  // From nothing: the authors' global matching. Ambiguous when places that differ are equally good.
+  // From nothing: the authors' global matching. Ambiguous when places that differ are equally good; no match if the plan's mirror image, a
+  // building that is not the plan's, agrees better.
   // O(plan rooms * map rooms) pairs of rooms, of which at most max_room_pairs go on; quadratic in these.
   [[nodiscard]] GraphMatch Match(const MatchGraph& map) const;
 
@@ -70,7 +72,8 @@ class GraphMatcher {
   [[nodiscard]] GraphMatch Extend(const MatchGraph& map, const GraphMatch& known) const;
 
  private:
-  MatchGraph plan_;
+  MatchGraph plan_, mirror_image_;
+  bool own_mirror_image_ = false;  // the plan is
   GraphMatcherOptions options_;
 };
 

@@ -38,7 +38,7 @@ struct WallGroup {
   double yaw_rad = 0, density = 0;
 };
 
-// Sets of walls that agree about the rooms' centres: of the largest size, and one fewer (with a wall that deviates, the true one may be smaller).
+// Sets of walls that agree: of the largest size, and one fewer (with a wall that deviates, the true one may be smaller).
 std::vector<WallGroup> WallGroups(const MatchGraph& plan, const GraphRoom& a, const MatchGraph& map, const GraphRoom& s,
                                   const GraphMatcherOptions& options) {
   const std::vector<WallPair> pairs = PossibleWalls(plan, a, map, s, options.room_wall_epsilon_m);
@@ -54,7 +54,8 @@ std::vector<WallGroup> WallGroups(const MatchGraph& plan, const GraphRoom& a, co
     for (size_t j = 0; j < i; ++j) {
       if (pairs[i].plan == pairs[j].plan || pairs[i].map == pairs[j].map) continue;
       const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(j);
-      affinity(row, column) = affinity(column, row) = WallAffinity(in_plan[i], in_plan[j], in_map[i], in_map[j], options.tight);
+      affinity(row, column) = affinity(column, row) =
+          WallAffinityUpToShift(in_plan[i], in_plan[j], in_map[i], in_map[j], options.tight);
     }
   }
   std::vector<WallGroup> groups;

@@ -6,13 +6,19 @@
 #include "runtime/coupling/coupling.h"
 #include "runtime/deviations/deviations.h"
 #include "runtime/mapping/mapper_options.h"
+#include "runtime/matching/graph/graph_matcher.h"
 #include "runtime/matching/matcher.h"
 #include "runtime/odometry/odometry.h"
 #include "runtime/optimization/joint_optimizer.h"
 
 namespace plumb::runtime {
 
+// What finds the map in the plan: walls and rays (matcher.h), or rooms by the paper's matcher (graph_matcher.h).
+enum class MatcherKind : uint8_t { kWall, kGraph };
+
 struct LocalizerOptions {
+  MatcherKind matcher_kind = MatcherKind::kWall;
+  int derive_rooms_every = 3;      // keyframes between two tries of the matcher by rooms
   int optimize_every = 1;          // keyframes between two solves once localized: ...
   double solve_all_growth = 0.05;  // ... of everything when the map has grown by this share since the last of them, ...
   int window_keyframes = 20;       // ... else of the poses of so many newest keyframes; at most mapper.recent_keyframes
@@ -21,7 +27,8 @@ struct LocalizerOptions {
   double rival_margin_nats = 5.0;  // a rival must be better by this much to count against the fix
   OdometryOptions odometry;
   MapperOptions mapper;
-  MatcherOptions matcher;
+  MatcherOptions matcher;  // once found, a place is watched by rays whatever found it
+  GraphMatcherOptions graph_matcher;
   CouplingOptions coupling;
   JointOptions joint;
   DeviationOptions deviations;

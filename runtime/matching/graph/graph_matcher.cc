@@ -48,6 +48,12 @@ bool SamePlace(const PlanarPose& a, const PlanarPose& b, const Eigen::Vector2d& 
          (a.rotation() * middle + a.t_m - b.rotation() * middle - b.t_m).norm() < kSamePlace_m;
 }
 
+void AddOrphans(const MatchGraph& plan, const MatchGraph& map, Candidate2D* candidate, const GraphMatcherOptions& options) {
+  candidate->orphans = OrphanWalls(plan, map, *candidate, options);
+  candidate->support = candidate->density;
+  for (const ScoredPair& orphan : candidate->orphans) candidate->support += orphan.score;
+}
+
 // Consistent candidates, best supported first, of those at the same place only the densest.
 std::vector<Candidate2D> Candidates(const MatchGraph& plan, const MatchGraph& map, const GraphMatcherOptions& options) {
   const std::vector<RoomPair> pairs = PairRooms(plan, map, options);
@@ -65,11 +71,7 @@ std::vector<Candidate2D> Candidates(const MatchGraph& plan, const MatchGraph& ma
     const bool known = std::any_of(distinct.begin(), distinct.end(), [&](const Candidate2D& d) { return SamePlace(c.pose, d.pose, middle); });
     if (!known) distinct.push_back(std::move(c));
   }
-  for (Candidate2D& c : distinct) {
-    c.orphans = OrphanWalls(plan, map, c, options);
-    c.support = c.density;
-    for (const ScoredPair& orphan : c.orphans) c.support += orphan.score;
-  }
+  for (Candidate2D& c : distinct) AddOrphans(plan, map, &c, options);
   std::stable_sort(distinct.begin(), distinct.end(), [](const Candidate2D& a, const Candidate2D& b) { return a.support > b.support; });
   return distinct;
 }
@@ -77,6 +79,7 @@ std::vector<Candidate2D> Candidates(const MatchGraph& plan, const MatchGraph& ma
 // The candidate with its ids, and what deviates.
 void Describe(const MatchGraph& plan, const MatchGraph& map, const Candidate2D& candidate, const GraphMatcherOptions& options, GraphMatch* out) {
   out->pose = candidate.pose;
+  out->support = candidate.support;
   for (const RoomPair& r : candidate.rooms) {
     const double full = static_cast<double>(map.rooms[r.map_room].walls.size());
     out->rooms.push_back({plan.rooms[r.plan_room].id, map.rooms[r.map_room].id, r.density / full});
@@ -194,7 +197,7 @@ GraphMatch GraphMatcher::Extend(const MatchGraph& map, const GraphMatch& known) 
     plan_rooms.insert(pair.plan_room);
     map_rooms.insert(pair.map_room);
   }
-  candidate.orphans = OrphanWalls(plan_, map, candidate, options_);
+  AddOrphans(plan_, map, &candidate, options_);
   GraphMatch out;
   out.verdict = known.verdict;
   out.rooms = known.rooms;

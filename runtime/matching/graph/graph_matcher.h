@@ -52,6 +52,7 @@ struct GraphMatch {
   std::vector<WallMatch> walls;  // by map wall
   PlanarPose pose;               // T_plan_map by the walls that do not deviate; z_m is 0
   double score = 0;              // share of the walls of the map's rooms that agree
+  double support = 0;            // how many walls agree, each as well as it agrees with the others
   std::vector<PlanarPose> rivals;  // other places that are as good; when ambiguous
   size_t candidates = 0;         // consistent sets of rooms and walls
   std::string reason;            // why it is not unique; empty when it is

@@ -34,9 +34,9 @@ std::vector<Side> Sides(std::vector<GraphWall> pieces) {
   std::stable_sort(pieces.begin(), pieces.end(), [](const GraphWall& a, const GraphWall& b) { return Length(a) > Length(b); });
   std::vector<Side> sides;
   for (const GraphWall& piece : pieces) {
-    const auto same = std::find_if(sides.begin(), sides.end(), [&](const Side& s) { return InOneLine(s.wall, piece); });
-    if (same == sides.end()) sides.push_back({piece, 0});
-    (same == sides.end() ? sides.back() : *same).length_m += Length(piece);
+    auto same = std::find_if(sides.begin(), sides.end(), [&](const Side& s) { return InOneLine(s.wall, piece); });
+    if (same == sides.end()) same = sides.insert(sides.end(), {piece, 0});
+    same->length_m += Length(piece);
   }
   std::erase_if(sides, [](const Side& s) { return s.length_m < kMinLength_m; });
   return sides;

@@ -115,9 +115,11 @@ std::vector<Eigen::Index> HeaviestFirst(const Eigen::MatrixXd& affinity) {
 
 Clique DensestClique(const Eigen::MatrixXd& affinity, const DensestCliqueOptions& options) {
   if (affinity.rows() == 0) return {};
+  const Eigen::VectorXd leading = LeadingEigenvector(affinity);
+  if ((affinity.array() > 0).all()) return Round(affinity, leading);  // without conflicts that is the maximum
   const Relaxation relaxation(affinity, options);
   const std::vector<Eigen::Index> heaviest = HeaviestFirst(affinity);
-  Clique best = Round(affinity, relaxation.Solve(LeadingEigenvector(affinity)));
+  Clique best = Round(affinity, relaxation.Solve(leading));
   for (size_t i = 0; i + 1 < static_cast<size_t>(options.starts) && i < heaviest.size(); ++i) {
     Clique clique = Round(affinity, relaxation.Solve(affinity.col(heaviest[i])));
     if (clique.density > best.density) best = std::move(clique);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "runtime/matching/graph/room_pairs.h"
@@ -12,7 +13,7 @@ namespace plumb::runtime {
 namespace {
 
 constexpr double kSamePlace_m = 0.5, kSamePlace_rad = 0.17;
-constexpr double kOwnMirrorImageRatio = 0.95;  // of the walls
+constexpr double kSameWall_m = 0.1, kSameWall_rad = 0.05, kOwnMirrorImageRatio = 0.95;  // of the rooms' walls
 
 MatchGraph MirrorImage(MatchGraph graph) {
   for (GraphRoom& room : graph.rooms) room.center.x() = -room.center.x();
@@ -22,6 +23,29 @@ MatchGraph MirrorImage(MatchGraph graph) {
     wall.end.x() = -wall.end.x();
   }
   return graph;
+}
+
+// A map at `pose` in the plan and at `mirrored_pose` in its mirror image says how the one would lie on the other. True if it does: then a better
+// place in the mirror image is one in the plan.
+bool IsOwnMirrorImage(const MatchGraph& plan, const MatchGraph& image, const PlanarPose& pose, const PlanarPose& mirrored_pose) {
+  const Eigen::Matrix2d R = pose.rotation() * mirrored_pose.rotation().transpose();
+  const Eigen::Vector2d t = pose.t_m - R * mirrored_pose.t_m;
+  size_t walls = 0, same = 0;
+  for (const GraphRoom& room : image.rooms) {
+    for (size_t w : room.walls) {
+      const GraphWall& wall = image.walls[w];
+      const Eigen::Vector2d normal = R * wall.normal, foot = R * (room.center - (wall.normal.dot(room.center) + wall.d_m) * wall.normal) + t;
+      ++walls;
+      same += std::any_of(plan.rooms.begin(), plan.rooms.end(), [&](const GraphRoom& r) {
+        if ((r.center - (R * room.center + t)).norm() > kSamePlace_m) return false;
+        return std::any_of(r.walls.begin(), r.walls.end(), [&](size_t p) {
+          const GraphWall& other = plan.walls[p];
+          return normal.dot(other.normal) > std::cos(kSameWall_rad) && std::abs(other.normal.dot(foot) + other.d_m) < kSameWall_m;
+        });
+      });
+    }
+  }
+  return static_cast<double>(same) > kOwnMirrorImageRatio * static_cast<double>(walls);
 }
 
 // Walls that a graph's rooms have, each counted once.
@@ -132,10 +156,7 @@ std::string GraphMatcherOptions::Check() const {
 }
 
 GraphMatcher::GraphMatcher(MatchGraph plan, const GraphMatcherOptions& options)
-    : plan_(std::move(plan)), mirror_image_(MirrorImage(plan_)), options_(options) {
-  const std::vector<Candidate2D> itself = Candidates(plan_, plan_, options_), mirrored = Candidates(plan_, mirror_image_, options_);
-  own_mirror_image_ = !mirrored.empty() && !itself.empty() && mirrored.front().support > kOwnMirrorImageRatio * itself.front().support;
-}
+    : plan_(std::move(plan)), mirror_image_(MirrorImage(plan_)), options_(options) {}
 
 GraphMatch GraphMatcher::Match(const MatchGraph& map) const {
   GraphMatch out;
@@ -157,12 +178,11 @@ GraphMatch GraphMatcher::Match(const MatchGraph& map) const {
                              100 * options_.min_matched_ratio);
     return out;
   }
-  if (!own_mirror_image_) {
-    const std::vector<Candidate2D> mirrored = Candidates(mirror_image_, map, options_);
-    if (!mirrored.empty() && mirrored.front().support > best.support + options_.symmetry_epsilon * walls) {
-      out.reason = "the rooms of the map agree better with the plan's mirror image";
-      return out;
-    }
+  const std::vector<Candidate2D> mirrored = Candidates(mirror_image_, map, options_);
+  if (!mirrored.empty() && mirrored.front().support > best.support + options_.symmetry_epsilon * walls &&
+      !IsOwnMirrorImage(plan_, mirror_image_, best.pose, mirrored.front().pose)) {
+    out.reason = "the rooms of the map agree better with the plan's mirror image";
+    return out;
   }
   for (size_t i = 1; i < candidates.size(); ++i) {
     if ((best.support - candidates[i].support) / walls <= options_.symmetry_epsilon) out.rivals.push_back(candidates[i].pose);

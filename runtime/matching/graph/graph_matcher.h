@@ -74,7 +74,6 @@ class GraphMatcher {
 
  private:
   MatchGraph plan_, mirror_image_;
-  bool own_mirror_image_ = false;  // the plan is
   GraphMatcherOptions options_;
 };
 

@@ -11,6 +11,13 @@ namespace {
 
 constexpr size_t kMinGroup = 2;
 
+// Neighbourhoods have fewer local optima than whole graphs, and there are many of them.
+DensestCliqueOptions FewStarts() {
+  DensestCliqueOptions options;
+  options.starts = 3;
+  return options;
+}
+
 double MeanYaw(const MatchGraph& plan, const MatchGraph& map, const std::vector<WallPair>& walls) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   for (const WallPair& w : walls) {
@@ -60,7 +67,7 @@ std::vector<WallGroup> WallGroups(const MatchGraph& plan, const GraphRoom& a, co
   }
   std::vector<WallGroup> groups;
   size_t largest = kMinGroup;
-  for (const Clique& clique : CoveringCliques(affinity)) {
+  for (const Clique& clique : CoveringCliques(affinity, FewStarts())) {
     const auto size = static_cast<double>(clique.members.size());
     if (clique.members.size() < kMinGroup || clique.density / size < options.min_wall_score) continue;
     WallGroup group;
@@ -125,9 +132,7 @@ std::vector<std::vector<size_t>> RoomSets(const MatchGraph& plan, const MatchGra
     }
   }
   std::vector<std::vector<size_t>> sets;
-  DensestCliqueOptions clique_options;
-  clique_options.starts = 3;
-  for (Clique& clique : CoveringCliques(affinity, clique_options)) {
+  for (Clique& clique : CoveringCliques(affinity, FewStarts())) {
     const size_t size = clique.members.size();
     if (size < static_cast<size_t>(options.min_rooms) || clique.density / static_cast<double>(size) < options.min_room_score) continue;
     sets.push_back(std::move(clique.members));

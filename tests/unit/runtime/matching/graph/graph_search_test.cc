@@ -1,38 +1,28 @@
-// Rooms of a map that the runtime has made itself, on a simulated drive, against rooms of plans.
 #include "runtime/matching/graph/graph_search.h"
 
 #include <gtest/gtest.h>
 
-#include "runtime/mapping/mapper.h"
-#include "runtime/odometry/odometry.h"
 #include "tests/support/house.h"
-#include "tests/support/synthetic_lidar.h"
+#include "tests/support/synthetic_map.h"
+#include "tests/support/synthetic_sgraph.h"
 
 namespace plumb::runtime {
 namespace {
 
-struct Mapped {
-  SGraph map;
-  Eigen::Isometry3d T_plan_map = Eigen::Isometry3d::Identity();
-};
+const Eigen::Isometry3d kPlanFromMap = test::UprightPose(137, 4, -2, 0.6);
 
-const Mapped& MappedHouse() {
-  static const Mapped kMapped = [] {
-    test::SyntheticLidarOptions lidar_options;
-    lidar_options.azimuths = 900;
-    const test::SyntheticLidar lidar(test::MakeHouse(), lidar_options);
-    const test::Drive drive = test::HouseDrive();
-    Odometry odometry;
-    Mapper mapper;
-    Mapped out;
-    for (double t = 0; t + 0.1 < drive.duration_s(); t += 0.1) {
-      const OdometryResult r = odometry.Register(lidar.Sweep([&](double s) { return drive.At(s); }, t), std::nullopt);
-      if (t == 0) out.T_plan_map = drive.At(0) * r.T_odom_lidar.inverse();
-      mapper.AddScan(r.deskewed, r.T_odom_lidar);
+// Seen from all rooms.
+const SGraph& MappedHouse() {
+  static const SGraph kMapped = [] {
+    test::SyntheticMapOptions options;
+    options.positions = {{1, 1}, {2.5, 1.7}, {4, 2.5}, {2.45, 3.5}, {2.4, 4.5}, {4, 5}, {1, 5}, {5, 2.75}, {6, 2.7}, {7, 1.5}, {7, 4.5}};
+    options.T_plan_map = kPlanFromMap;
+    SGraph map = test::MakeSyntheticMap(test::MakeHouse(), options);
+    for (MapSurface& s : map.surfaces) {
+      s.observations.emplace_back();
+      if (s.kind == SurfaceKind::kWall) test::FillCells(s);
     }
-    mapper.Flush();
-    out.map = mapper.graph();
-    return out;
+    return map;
   }();
   return kMapped;
 }
@@ -60,10 +50,10 @@ AGraph TwoAlikeStoreys() {
 TEST(GraphSearch, FindsTheMapInThePlan) {
   AGraph house = test::MakeHouse();
   house.origin = {4, 2, 1};
-  const MatchResult result = GraphSearch(house).Match(MappedHouse().map);
+  const MatchResult result = GraphSearch(house).Match(MappedHouse());
   ASSERT_EQ(result.verdict, MatchResult::Verdict::kUnique) << result.reason;
   ASSERT_EQ(result.hypotheses.size(), 1u);
-  const Eigen::Isometry3d off = MappedHouse().T_plan_map.inverse() * result.hypotheses[0].T_plan_map;
+  const Eigen::Isometry3d off = kPlanFromMap.inverse() * result.hypotheses[0].T_plan_map;
   EXPECT_LT(off.translation().norm(), 0.05);
   EXPECT_LT(Eigen::AngleAxisd(off.linear()).angle(), 0.01);
   EXPECT_EQ(result.hypotheses[0].storey, StoreyId(0));
@@ -71,13 +61,13 @@ TEST(GraphSearch, FindsTheMapInThePlan) {
 }
 
 TEST(GraphSearch, CallsStoreysWithTheSameRoomsAmbiguous) {
-  const MatchResult result = GraphSearch(TwoAlikeStoreys()).Match(MappedHouse().map);
+  const MatchResult result = GraphSearch(TwoAlikeStoreys()).Match(MappedHouse());
   EXPECT_EQ(result.verdict, MatchResult::Verdict::kAmbiguous);
   EXPECT_NE(result.reason.find("storeys"), std::string::npos) << result.reason;
 }
 
 TEST(GraphSearch, FindsNothingInAPlanWithoutRoomsOrWithOtherOnes) {
-  EXPECT_EQ(GraphSearch(AGraph()).Match(MappedHouse().map).reason, "the plan has no rooms");
+  EXPECT_EQ(GraphSearch(AGraph()).Match(MappedHouse()).reason, "the plan has no rooms");
   AGraph scaled = test::MakeHouse();
   for (Surface& s : scaled.surfaces) {
     s.start *= 1.3;
@@ -88,7 +78,7 @@ TEST(GraphSearch, FindsNothingInAPlanWithoutRoomsOrWithOtherOnes) {
     r.center *= 1.3;
     r.area_m2 *= 1.69;
   }
-  EXPECT_EQ(GraphSearch(scaled).Match(MappedHouse().map).verdict, MatchResult::Verdict::kSearching);
+  EXPECT_EQ(GraphSearch(scaled).Match(MappedHouse()).verdict, MatchResult::Verdict::kSearching);
   EXPECT_EQ(GraphSearch(test::MakeHouse()).Match(SGraph()).verdict, MatchResult::Verdict::kSearching);
 }
 

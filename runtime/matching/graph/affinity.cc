@@ -39,8 +39,9 @@ std::string PointConsistency::Check() const {
 }
 
 std::string WallConsistency::Check() const {
-  for (const std::string& wrong : {Positive("WallConsistency.sigma_m", sigma_m), Positive("WallConsistency.epsilon_m", epsilon_m),
-                                   Positive("WallConsistency.sigma_rad", sigma_rad), Positive("WallConsistency.epsilon_rad", epsilon_rad)}) {
+  for (const std::string& wrong :
+       {Positive("WallConsistency.sigma_m", sigma_m), Positive("WallConsistency.epsilon_m", epsilon_m),
+        Positive("WallConsistency.sigma_rad", sigma_rad), Positive("WallConsistency.epsilon_rad", epsilon_rad)}) {
     if (!wrong.empty()) return wrong;
   }
   return {};
@@ -50,8 +51,8 @@ WallPoint AboutOrigin(const Eigen::Vector2d& normal, double d_m, const Eigen::Ve
   return {-(normal.dot(origin) + d_m) * normal, normal};
 }
 
-double PointAffinity(const Eigen::Vector2d& plan_i, const Eigen::Vector2d& plan_j, const Eigen::Vector2d& map_i, const Eigen::Vector2d& map_j,
-                     const PointConsistency& bounds) {
+double PointAffinity(const Eigen::Vector2d& plan_i, const Eigen::Vector2d& plan_j, const Eigen::Vector2d& map_i,
+                     const Eigen::Vector2d& map_j, const PointConsistency& bounds) {
   const double difference_m = std::abs((plan_i - plan_j).norm() - (map_i - map_j).norm());
   return difference_m < bounds.epsilon_m ? Gaussian(difference_m, bounds.sigma_m) : 0;
 }

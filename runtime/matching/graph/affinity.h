@@ -37,8 +37,8 @@ struct WallPoint {
 [[nodiscard]] double WallAffinity(const WallPoint& plan_i, const WallPoint& plan_j, const WallPoint& map_i, const WallPoint& map_j,
                                   const WallConsistency& bounds);
 
-// The same when the origins in plan and map may be decimetres apart, as the centres of a room are of which a wall has moved: between walls that are
-// not parallel no distance is known then, only the angle.
+// The same when the origins in plan and map may be decimetres apart, as the centres of a room are of which a wall has moved: between walls
+// that are not parallel no distance is known then, only the angle.
 [[nodiscard]] double WallAffinityUpToShift(const WallPoint& plan_i, const WallPoint& plan_j, const WallPoint& map_i, const WallPoint& map_j,
                                            const WallConsistency& bounds);
 

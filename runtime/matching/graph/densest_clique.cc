@@ -7,8 +7,8 @@
 namespace plumb::runtime {
 namespace {
 
-constexpr double kZero = 1e-9;      // entries below are none
-constexpr double kShrink = 0.25;    // of a step that went down
+constexpr double kZero = 1e-9;    // entries below are none
+constexpr double kShrink = 0.25;  // of a step that went down
 constexpr int kMaxShrinks = 40, kPowerSteps = 50;
 
 class Relaxation {
@@ -77,7 +77,8 @@ class Relaxation {
 Clique Round(const Eigen::MatrixXd& affinity, const Eigen::VectorXd& u) {
   std::vector<size_t> order(static_cast<size_t>(u.size()));
   std::iota(order.begin(), order.end(), size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return u(static_cast<Eigen::Index>(a)) > u(static_cast<Eigen::Index>(b)); });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](size_t a, size_t b) { return u(static_cast<Eigen::Index>(a)) > u(static_cast<Eigen::Index>(b)); });
   Clique clique;
   double weight = 0;  // of the members' part of the matrix
   for (size_t candidate : order) {
@@ -145,7 +146,8 @@ std::vector<Clique> CoveringCliques(const Eigen::MatrixXd& affinity, const Dense
     }
     const auto size = static_cast<double>(clique.members.size());
     clique.density = (size * clique.density + 2 * to_seed + 1) / (size + 1);
-    clique.members.insert(std::upper_bound(clique.members.begin(), clique.members.end(), static_cast<size_t>(seed)), static_cast<size_t>(seed));
+    clique.members.insert(std::upper_bound(clique.members.begin(), clique.members.end(), static_cast<size_t>(seed)),
+                          static_cast<size_t>(seed));
     for (size_t member : clique.members) covered[member] = true;
     cliques.push_back(std::move(clique));
   }

@@ -25,8 +25,8 @@ MatchGraph MirrorImage(MatchGraph graph) {
   return graph;
 }
 
-// A map at `pose` in the plan and at `mirrored_pose` in its mirror image says how the one would lie on the other. True if it does: then a better
-// place in the mirror image is one in the plan.
+// A map at `pose` in the plan and at `mirrored_pose` in its mirror image says how the one would lie on the other. True if it does: then a
+// better place in the mirror image is one in the plan.
 bool IsOwnMirrorImage(const MatchGraph& plan, const MatchGraph& image, const PlanarPose& pose, const PlanarPose& mirrored_pose) {
   const Eigen::Matrix2d R = pose.rotation() * mirrored_pose.rotation().transpose();
   const Eigen::Vector2d t = pose.t_m - R * mirrored_pose.t_m;
@@ -34,7 +34,8 @@ bool IsOwnMirrorImage(const MatchGraph& plan, const MatchGraph& image, const Pla
   for (const GraphRoom& room : image.rooms) {
     for (size_t w : room.walls) {
       const GraphWall& wall = image.walls[w];
-      const Eigen::Vector2d normal = R * wall.normal, foot = R * (room.center - (wall.normal.dot(room.center) + wall.d_m) * wall.normal) + t;
+      const Eigen::Vector2d normal = R * wall.normal,
+                            foot = R * (room.center - (wall.normal.dot(room.center) + wall.d_m) * wall.normal) + t;
       ++walls;
       same += std::any_of(plan.rooms.begin(), plan.rooms.end(), [&](const GraphRoom& r) {
         if ((r.center - (R * room.center + t)).norm() > kSamePlace_m) return false;
@@ -92,7 +93,8 @@ std::vector<Candidate2D> Candidates(const MatchGraph& plan, const MatchGraph& ma
   std::vector<Candidate2D> distinct;
   for (Candidate2D& c : all) {
     if (distinct.size() == static_cast<size_t>(options.max_candidates)) break;
-    const bool known = std::any_of(distinct.begin(), distinct.end(), [&](const Candidate2D& d) { return SamePlace(c.pose, d.pose, middle); });
+    const bool known =
+        std::any_of(distinct.begin(), distinct.end(), [&](const Candidate2D& d) { return SamePlace(c.pose, d.pose, middle); });
     if (!known) distinct.push_back(std::move(c));
   }
   for (Candidate2D& c : distinct) AddOrphans(plan, map, &c, options);
@@ -101,7 +103,8 @@ std::vector<Candidate2D> Candidates(const MatchGraph& plan, const MatchGraph& ma
 }
 
 // The candidate with its ids, and what deviates.
-void Describe(const MatchGraph& plan, const MatchGraph& map, const Candidate2D& candidate, const GraphMatcherOptions& options, GraphMatch* out) {
+void Describe(const MatchGraph& plan, const MatchGraph& map, const Candidate2D& candidate, const GraphMatcherOptions& options,
+              GraphMatch* out) {
   out->pose = candidate.pose;
   out->support = candidate.support;
   for (const RoomPair& r : candidate.rooms) {
@@ -109,7 +112,8 @@ void Describe(const MatchGraph& plan, const MatchGraph& map, const Candidate2D& 
     out->rooms.push_back({plan.rooms[r.plan_room].id, map.rooms[r.map_room].id, r.density / full});
   }
   const auto add = [&](const std::vector<ScoredPair>& pairs, bool deviated, bool orphan) {
-    for (const ScoredPair& p : pairs) out->walls.push_back({plan.walls[p.pair.plan].id, map.walls[p.pair.map].id, p.score, deviated, orphan});
+    for (const ScoredPair& p : pairs)
+      out->walls.push_back({plan.walls[p.pair.plan].id, map.walls[p.pair.map].id, p.score, deviated, orphan});
   };
   add(candidate.walls, false, false);
   add(DeviatedWalls(plan, map, candidate, options), true, false);
@@ -139,16 +143,19 @@ Candidate2D Recalled(const MatchGraph& plan, const MatchGraph& map, const GraphM
 }  // namespace
 
 std::string GraphMatcherOptions::Check() const {
-  for (std::string wrong : {room.Check(), tight.Check(), relaxed.Check()}) if (!wrong.empty()) return wrong;
+  for (std::string wrong : {room.Check(), tight.Check(), relaxed.Check()})
+    if (!wrong.empty()) return wrong;
   const auto bad = [](const char* name, double value, const char* rule) {
     return fmt::format("GraphMatcherOptions.{} = {}; must be {}", name, value, rule);
   };
   if (!(max_deviation_m > 0)) return bad("max_deviation_m", max_deviation_m, "positive");
   if (!(room_wall_epsilon_m > 0)) return bad("room_wall_epsilon_m", room_wall_epsilon_m, "positive");
-  const std::pair<const char*, double> ratios[] = {{"min_room_score", min_room_score},           {"min_wall_score", min_wall_score},
-                                                   {"min_global_affinity", min_global_affinity}, {"min_deviated_affinity", min_deviated_affinity},
-                                                   {"symmetry_epsilon", symmetry_epsilon},       {"min_matched_ratio", min_matched_ratio}};
-  for (const auto& [name, value] : ratios) if (!(value >= 0 && value <= 1)) return bad(name, value, "in [0, 1]");
+  const std::pair<const char*, double> ratios[] = {
+      {"min_room_score", min_room_score},           {"min_wall_score", min_wall_score},
+      {"min_global_affinity", min_global_affinity}, {"min_deviated_affinity", min_deviated_affinity},
+      {"symmetry_epsilon", symmetry_epsilon},       {"min_matched_ratio", min_matched_ratio}};
+  for (const auto& [name, value] : ratios)
+    if (!(value >= 0 && value <= 1)) return bad(name, value, "in [0, 1]");
   if (min_rooms < 1) return bad("min_rooms", min_rooms, "at least 1");
   if (max_room_pairs < 1) return bad("max_room_pairs", max_room_pairs, "at least 1");
   if (max_candidates < 2) return bad("max_candidates", max_candidates, "at least 2");
@@ -221,7 +228,8 @@ GraphMatch GraphMatcher::Extend(const MatchGraph& map, const GraphMatch& known) 
   GraphMatch out;
   out.verdict = known.verdict;
   out.rooms = known.rooms;
-  for (const WallMatch& w : known.walls) if (w.deviated) out.walls.push_back(w);
+  for (const WallMatch& w : known.walls)
+    if (w.deviated) out.walls.push_back(w);
   Describe(plan_, map, candidate, options_, &out);
   out.score = MatchedRatio(map, candidate);
   return out;

@@ -12,8 +12,8 @@ class GraphSearch {
   // `options` must pass Check().
   explicit GraphSearch(const AGraph& plan, const GraphMatcherOptions& options = {});
 
-  // As Matcher::Match, by rooms alone: derives the map's rooms and takes the floor that has most of them. Of the hypotheses only pose, storey, and
-  // how many walls agree and their share are given; they are equally probable. Deterministic.
+  // As Matcher::Match, by rooms alone: derives the map's rooms and takes the floor that has most of them. Of the hypotheses only pose,
+  // storey, and how many walls agree and their share are given; they are equally probable. Deterministic.
   [[nodiscard]] MatchResult Match(const SGraph& map) const;
 
  private:

@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kSameLine_rad = 0.09, kSameLine_m = 0.06;  // pieces of one wall, beside a door or a pillar
 constexpr double kMinLength_m = 0.4;                        // shorter ones are reveals
-constexpr double kSide_rad = 0.35;                          // of a side's normal off the square of the longest; built walls turn by up to 15 degrees
+constexpr double kSide_rad = 0.35;  // of a side's normal off the square of the longest; built walls turn by up to 15 degrees
 constexpr size_t kMinWalls = 3;
 
 double Length(const GraphWall& w) { return (w.end - w.start).norm(); }
@@ -138,9 +138,11 @@ bool IsWall(const MapSurface& s) { return s.kind == SurfaceKind::kWall && !s.obs
 
 std::vector<size_t> MatchGraph::Orphans() const {
   std::vector<bool> parented(walls.size(), false);
-  for (const GraphRoom& room : rooms) for (size_t w : room.walls) parented[w] = true;
+  for (const GraphRoom& room : rooms)
+    for (size_t w : room.walls) parented[w] = true;
   std::vector<size_t> orphans;
-  for (size_t w = 0; w < walls.size(); ++w) if (!parented[w]) orphans.push_back(w);
+  for (size_t w = 0; w < walls.size(); ++w)
+    if (!parented[w]) orphans.push_back(w);
   return orphans;
 }
 
@@ -175,7 +177,8 @@ MatchGraph PlanGraph(const AGraph& plan, StoreyId storey, GraphRooms rooms) {
     const Room& room = plan.rooms[i];
     if (room.storey != storey) continue;
     RoomPieces pieces{static_cast<uint32_t>(i), room.center.head<2>() - origin, room.area_m2, {}};
-    for (SurfaceId id : room.surfaces) if (usable(id)) pieces.pieces.push_back(FromPlan(plan, id));
+    for (SurfaceId id : room.surfaces)
+      if (usable(id)) pieces.pieces.push_back(FromPlan(plan, id));
     builder.Add(pieces);
   }
   for (size_t i = 0; i < plan.surfaces.size(); ++i) {
@@ -196,7 +199,8 @@ MatchGraph MapGraph(const SGraph& map, const UpperLayers& layers, uint32_t floor
     }
     if (room.floor == floor) builder.Add(pieces);
   }
-  for (const MapSurface& s : map.surfaces) if (IsWall(s) && !elsewhere[s.id]) builder.AddWall(FromMap(s));
+  for (const MapSurface& s : map.surfaces)
+    if (IsWall(s) && !elsewhere[s.id]) builder.AddWall(FromMap(s));
   return builder.Take();
 }
 

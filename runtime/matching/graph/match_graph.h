@@ -1,5 +1,5 @@
-// Plan or map as graph matching needs them: rooms, the walls around them, and walls without a room. In the ground plane: the maps are level,
-// so that only yaw and a shift are unknown.
+// Plan or map as graph matching needs them: rooms, the walls around them, and walls without a room. In the ground plane: the maps are
+// level, so that only yaw and a shift are unknown.
 #pragma once
 
 #include <Eigen/Core>
@@ -35,8 +35,8 @@ struct MatchGraph {
   [[nodiscard]] std::vector<size_t> Orphans() const;  // walls of no room, ascending
 };
 
-// Rooms of which four walls are known and that these four bound: their area is the room's to within this share. The centre is where opposite
-// walls are as far. Else any room with three walls or more, and the centre of its area.
+// Rooms of which four walls are known and that these four bound: their area is the room's to within this share. The centre is where
+// opposite walls are as far. Else any room with three walls or more, and the centre of its area.
 enum class GraphRooms { kFourWalls, kAny };
 inline constexpr double kFourWallAreaRatio = 0.25;
 

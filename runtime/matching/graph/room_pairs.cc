@@ -28,7 +28,8 @@ double MeanYaw(const MatchGraph& plan, const MatchGraph& map, const std::vector<
 }
 
 // Walls of two rooms that are about as far from the rooms' centres.
-std::vector<WallPair> PossibleWalls(const MatchGraph& plan, const GraphRoom& a, const MatchGraph& map, const GraphRoom& s, double epsilon_m) {
+std::vector<WallPair> PossibleWalls(const MatchGraph& plan, const GraphRoom& a, const MatchGraph& map, const GraphRoom& s,
+                                    double epsilon_m) {
   std::vector<WallPair> out;
   for (size_t i : a.walls) {
     const double plan_m = plan.walls[i].normal.dot(a.center) + plan.walls[i].d_m;
@@ -61,8 +62,7 @@ std::vector<WallGroup> WallGroups(const MatchGraph& plan, const GraphRoom& a, co
     for (size_t j = 0; j < i; ++j) {
       if (pairs[i].plan == pairs[j].plan || pairs[i].map == pairs[j].map) continue;
       const auto row = static_cast<Eigen::Index>(i), column = static_cast<Eigen::Index>(j);
-      affinity(row, column) = affinity(column, row) =
-          WallAffinityUpToShift(in_plan[i], in_plan[j], in_map[i], in_map[j], options.tight);
+      affinity(row, column) = affinity(column, row) = WallAffinityUpToShift(in_plan[i], in_plan[j], in_map[i], in_map[j], options.tight);
     }
   }
   std::vector<WallGroup> groups;
@@ -95,7 +95,9 @@ double Agreement(const MatchGraph& plan, const MatchGraph& map, const RoomPair& 
 
 }  // namespace
 
-double YawOf(const GraphWall& plan, const GraphWall& map) { return std::atan2(Cross(map.normal, plan.normal), map.normal.dot(plan.normal)); }
+double YawOf(const GraphWall& plan, const GraphWall& map) {
+  return std::atan2(Cross(map.normal, plan.normal), map.normal.dot(plan.normal));
+}
 
 std::vector<RoomPair> PairRooms(const MatchGraph& plan, const MatchGraph& map, const GraphMatcherOptions& options) {
   std::vector<RoomPair> pairs;

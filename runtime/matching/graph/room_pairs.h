@@ -23,10 +23,12 @@ struct RoomPair {
   double density = 0;  // of the densest group
 };
 
-// All of which two walls or more agree, each about as far from the rooms' centres. By plan room, map room, then yaw; of more than options.max_room_pairs the densest.
+// All of which two walls or more agree, each about as far from the rooms' centres. By plan room, map room, then yaw; of more than
+// options.max_room_pairs the densest.
 [[nodiscard]] std::vector<RoomPair> PairRooms(const MatchGraph& plan, const MatchGraph& map, const GraphMatcherOptions& options);
 
-// Sets of pairs (positions in `pairs`, ascending) whose rooms all differ, whose centres are as far in plan and map, and that turn the map alike.
+// Sets of pairs (positions in `pairs`, ascending) whose rooms all differ, whose centres are as far in plan and map, and that turn the map
+// alike.
 [[nodiscard]] std::vector<std::vector<size_t>> RoomSets(const MatchGraph& plan, const MatchGraph& map, const std::vector<RoomPair>& pairs,
                                                         const GraphMatcherOptions& options);
 

@@ -9,10 +9,10 @@
 namespace plumb::runtime {
 namespace {
 
-constexpr size_t kMinWalls = 2;             // of a room, as in room_pairs
-constexpr double kStartWeight = 1e-6;       // of where Align starts, against one wall
-constexpr double kMinDeterminant = 0.05;    // of the normals' scatter per wall: 0 when all are parallel
-constexpr double kMinOverlap_m = 0.4;       // of a wall without a room and the plan's
+constexpr size_t kMinWalls = 2;           // of a room, as in room_pairs
+constexpr double kStartWeight = 1e-6;     // of where Align starts, against one wall
+constexpr double kMinDeterminant = 0.05;  // of the normals' scatter per wall: 0 when all are parallel
+constexpr double kMinOverlap_m = 0.4;     // of a wall without a room and the plan's
 
 // Affinities of pairs of walls about two points that are taken to be the same.
 class Comparison {
@@ -56,8 +56,12 @@ class Comparison {
     return count > 0 ? sum / static_cast<double>(count) : 0;
   }
 
-  [[nodiscard]] WallPoint InPlan(const WallPair& p) const { return AboutOrigin(plan_.walls[p.plan].normal, plan_.walls[p.plan].d_m, origin_in_plan_); }
-  [[nodiscard]] WallPoint InMap(const WallPair& p) const { return AboutOrigin(map_.walls[p.map].normal, map_.walls[p.map].d_m, origin_in_map_); }
+  [[nodiscard]] WallPoint InPlan(const WallPair& p) const {
+    return AboutOrigin(plan_.walls[p.plan].normal, plan_.walls[p.plan].d_m, origin_in_plan_);
+  }
+  [[nodiscard]] WallPoint InMap(const WallPair& p) const {
+    return AboutOrigin(map_.walls[p.map].normal, map_.walls[p.map].d_m, origin_in_map_);
+  }
 
   const MatchGraph &plan_, &map_;
   const Eigen::Vector2d origin_in_plan_, origin_in_map_;
@@ -86,7 +90,8 @@ std::vector<OwnedPair> AllPairs(const std::vector<RoomPair>& rooms) {
 // One wall of a room is not two; a long wall along several rooms may be.
 bool Exclusive(const OwnedPair& p, const OwnedPair& q) {
   if (p.pair.plan != q.pair.plan && p.pair.map != q.pair.map) return false;
-  return std::any_of(p.owners.begin(), p.owners.end(), [&](size_t o) { return std::find(q.owners.begin(), q.owners.end(), o) != q.owners.end(); });
+  return std::any_of(p.owners.begin(), p.owners.end(),
+                     [&](size_t o) { return std::find(q.owners.begin(), q.owners.end(), o) != q.owners.end(); });
 }
 
 Eigen::MatrixXd Affinities(const Comparison& comparison, const std::vector<OwnedPair>& pairs, const WallConsistency& bounds) {
@@ -113,9 +118,10 @@ bool Holds(const std::vector<ScoredPair>& walls, const WallPair& pair) {
 }
 
 size_t WallsIn(const MatchGraph& plan, const MatchGraph& map, const std::vector<ScoredPair>& walls, const RoomPair& room) {
-  const std::vector<size_t> &of_plan = plan.rooms[room.plan_room].walls, &of_map = map.rooms[room.map_room].walls;
+  const std::vector<size_t>&of_plan = plan.rooms[room.plan_room].walls, &of_map = map.rooms[room.map_room].walls;
   return static_cast<size_t>(std::count_if(walls.begin(), walls.end(), [&](const ScoredPair& w) {
-    return std::find(of_plan.begin(), of_plan.end(), w.pair.plan) != of_plan.end() && std::find(of_map.begin(), of_map.end(), w.pair.map) != of_map.end();
+    return std::find(of_plan.begin(), of_plan.end(), w.pair.plan) != of_plan.end() &&
+           std::find(of_map.begin(), of_map.end(), w.pair.map) != of_map.end();
   }));
 }
 
@@ -123,7 +129,7 @@ size_t WallsIn(const MatchGraph& plan, const MatchGraph& map, const std::vector<
 std::vector<WallPair> OpenPairs(const MatchGraph& plan, const MatchGraph& map, const Candidate2D& candidate) {
   std::vector<WallPair> out;
   for (const RoomPair& room : candidate.rooms) {
-    const std::vector<size_t> &of_plan = plan.rooms[room.plan_room].walls, &of_map = map.rooms[room.map_room].walls;
+    const std::vector<size_t>&of_plan = plan.rooms[room.plan_room].walls, &of_map = map.rooms[room.map_room].walls;
     const auto taken = [&](size_t w, bool in_plan) {
       return std::any_of(candidate.walls.begin(), candidate.walls.end(), [&](const ScoredPair& m) {
         if ((in_plan ? m.pair.plan : m.pair.map) != w) return false;
@@ -148,7 +154,8 @@ std::vector<ScoredPair> OneToOne(std::vector<ScoredPair> pairs) {
   std::stable_sort(pairs.begin(), pairs.end(), [](const ScoredPair& p, const ScoredPair& q) { return p.score > q.score; });
   std::vector<ScoredPair> out;
   for (const ScoredPair& p : pairs) {
-    const bool taken = std::any_of(out.begin(), out.end(), [&](const ScoredPair& o) { return o.pair.plan == p.pair.plan || o.pair.map == p.pair.map; });
+    const bool taken =
+        std::any_of(out.begin(), out.end(), [&](const ScoredPair& o) { return o.pair.plan == p.pair.plan || o.pair.map == p.pair.map; });
     if (!taken) out.push_back(p);
   }
   return out;
@@ -172,7 +179,8 @@ void Complete(const MatchGraph& plan, const MatchGraph& map, Candidate2D* candid
   const Comparison comparison(plan, map, candidate->pose, candidate->origin);
   std::vector<ScoredPair> more;
   for (const WallPair& pair : OpenPairs(plan, map, *candidate)) {
-    if (comparison.AgreesWithAll(pair, candidate->walls, options.tight)) more.push_back({pair, comparison.Mean(pair, candidate->walls, options.tight)});
+    if (comparison.AgreesWithAll(pair, candidate->walls, options.tight))
+      more.push_back({pair, comparison.Mean(pair, candidate->walls, options.tight)});
   }
   for (const ScoredPair& pair : OneToOne(std::move(more))) candidate->walls.push_back(pair);
   std::sort(candidate->walls.begin(), candidate->walls.end(), [](const ScoredPair& p, const ScoredPair& q) { return p.pair < q.pair; });
@@ -186,7 +194,9 @@ void Complete(const MatchGraph& plan, const MatchGraph& map, Candidate2D* candid
 }
 
 // Middle of a wall; where nobody knows how far it reaches, some point on it.
-Eigen::Vector2d PointOn(const GraphWall& w) { return w.has_extent() ? Eigen::Vector2d((w.start + w.end) / 2) : Eigen::Vector2d(-w.d_m * w.normal); }
+Eigen::Vector2d PointOn(const GraphWall& w) {
+  return w.has_extent() ? Eigen::Vector2d((w.start + w.end) / 2) : Eigen::Vector2d(-w.d_m * w.normal);
+}
 
 double Offset_m(const GraphWall& plan, const GraphWall& map, const PlanarPose& pose) {
   return std::abs(plan.normal.dot(pose.rotation() * PointOn(map) + pose.t_m) + plan.d_m);
@@ -196,7 +206,8 @@ double Offset_m(const GraphWall& plan, const GraphWall& map, const PlanarPose& p
 double Overlap_m(const GraphWall& plan, const GraphWall& map, const PlanarPose& pose) {
   const Eigen::Vector2d along = (plan.end - plan.start).normalized();
   const double length_m = (plan.end - plan.start).norm();
-  const double a_m = along.dot(pose.rotation() * map.start + pose.t_m - plan.start), b_m = along.dot(pose.rotation() * map.end + pose.t_m - plan.start);
+  const double a_m = along.dot(pose.rotation() * map.start + pose.t_m - plan.start),
+               b_m = along.dot(pose.rotation() * map.end + pose.t_m - plan.start);
   return std::min(length_m, std::max(a_m, b_m)) - std::max(0.0, std::min(a_m, b_m));
 }
 
@@ -231,7 +242,8 @@ PlanarPose Align(const MatchGraph& plan, const MatchGraph& map, std::span<const 
 
 std::optional<Candidate2D> MatchWalls(const MatchGraph& plan, const MatchGraph& map, const std::vector<RoomPair>& rooms,
                                       const GraphMatcherOptions& options) {
-  const auto base = std::max_element(rooms.begin(), rooms.end(), [](const RoomPair& p, const RoomPair& q) { return p.density < q.density; });
+  const auto base =
+      std::max_element(rooms.begin(), rooms.end(), [](const RoomPair& p, const RoomPair& q) { return p.density < q.density; });
   if (base == rooms.end()) return std::nullopt;
   const Eigen::Vector2d &in_plan = plan.rooms[base->plan_room].center, &in_map = map.rooms[base->map_room].center;
   const std::vector<OwnedPair> pairs = AllPairs(rooms);
@@ -278,7 +290,8 @@ std::optional<Candidate2D> WithRoom(const MatchGraph& plan, const MatchGraph& ma
   return out;
 }
 
-std::vector<ScoredPair> DeviatedWalls(const MatchGraph& plan, const MatchGraph& map, const Candidate2D& candidate, const GraphMatcherOptions& options) {
+std::vector<ScoredPair> DeviatedWalls(const MatchGraph& plan, const MatchGraph& map, const Candidate2D& candidate,
+                                      const GraphMatcherOptions& options) {
   const Comparison comparison(plan, map, candidate.pose, candidate.origin);
   std::vector<ScoredPair> deviated;
   for (const WallPair& pair : OpenPairs(plan, map, candidate)) {
@@ -289,7 +302,8 @@ std::vector<ScoredPair> DeviatedWalls(const MatchGraph& plan, const MatchGraph& 
   return OneToOne(std::move(deviated));
 }
 
-std::vector<ScoredPair> OrphanWalls(const MatchGraph& plan, const MatchGraph& map, const Candidate2D& candidate, const GraphMatcherOptions& options) {
+std::vector<ScoredPair> OrphanWalls(const MatchGraph& plan, const MatchGraph& map, const Candidate2D& candidate,
+                                    const GraphMatcherOptions& options) {
   const Comparison comparison(plan, map, candidate.pose, candidate.origin);
   std::vector<bool> taken(plan.walls.size(), false);
   for (const ScoredPair& w : candidate.walls) taken[w.pair.plan] = true;

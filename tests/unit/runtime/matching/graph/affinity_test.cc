@@ -17,7 +17,9 @@ Room MakeRoom() {
   return {wall(-1, 0, 2), wall(0, -1, 1.5), wall(1, 0, 2), wall(0, 1, 1.5)};
 }
 
-WallPoint Turned(const WallPoint& w, double yaw_rad) { return {Eigen::Rotation2Dd(yaw_rad) * w.foot, Eigen::Rotation2Dd(yaw_rad) * w.normal}; }
+WallPoint Turned(const WallPoint& w, double yaw_rad) {
+  return {Eigen::Rotation2Dd(yaw_rad) * w.foot, Eigen::Rotation2Dd(yaw_rad) * w.normal};
+}
 
 // Least affinity of two walls when wall i of the plan is wall permutation[i] of the map.
 double Weakest(const Room& plan, const Room& map, const std::array<size_t, 4>& permutation) {
@@ -51,8 +53,8 @@ TEST(WallAffinity, IsOneAtAnyYaw) {
 
 TEST(WallAffinity, TellsMirroredSidesOfPerpendicularWallsFromAnOriginBesideThem) {
   const Eigen::Vector2d origin(0, 0);
-  const WallPoint a = AboutOrigin({1, 0}, -2, origin), b = AboutOrigin({0, 1}, -3, origin);         // at x = 2, y = 3
-  const WallPoint across = AboutOrigin({1, 0}, 2, origin);                                           // at x = -2, the same normal
+  const WallPoint a = AboutOrigin({1, 0}, -2, origin), b = AboutOrigin({0, 1}, -3, origin);  // at x = 2, y = 3
+  const WallPoint across = AboutOrigin({1, 0}, 2, origin);                                   // at x = -2, the same normal
   EXPECT_DOUBLE_EQ(WallAffinity(a, b, a, b, {}), 1);
   EXPECT_EQ(WallAffinity(a, b, across, b, {}), 0);
   EXPECT_EQ(WallAffinity(b, a, b, across, {}), 0);

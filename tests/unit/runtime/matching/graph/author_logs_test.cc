@@ -1,5 +1,7 @@
-// The matcher on the graph logs of the diS-Graphs authors: buildings SE1 and SE2, plans with walls moved by known amounts, maps of two rooms and
-// of all. Skipped where the data are absent.
+// The matcher on the graph logs of the diS-Graphs authors: buildings SE1 and SE2, plans with walls moved by known amounts, maps of two
+// rooms and of all. Skipped where the data are absent.
+#include "tests/support/author_logs.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -9,7 +11,6 @@
 #include <set>
 
 #include "runtime/matching/graph/graph_matcher.h"
-#include "tests/support/author_logs.h"
 
 namespace plumb::runtime {
 namespace {
@@ -27,7 +28,8 @@ GraphWall ToWall(int id, const Eigen::Vector3d& line) {
 }
 
 size_t IndexOf(MatchGraph& graph, int id, const Eigen::Vector3d& line) {
-  const auto at = std::find_if(graph.walls.begin(), graph.walls.end(), [&](const GraphWall& w) { return w.id == static_cast<uint32_t>(id); });
+  const auto at =
+      std::find_if(graph.walls.begin(), graph.walls.end(), [&](const GraphWall& w) { return w.id == static_cast<uint32_t>(id); });
   if (at != graph.walls.end()) return static_cast<size_t>(at - graph.walls.begin());
   graph.walls.push_back(ToWall(id, line));
   return graph.walls.size() - 1;
@@ -95,7 +97,7 @@ std::string Text(const Pairs& pairs) {
 
 struct Case {
   std::string building, plan, map;
-  Pairs not_found = {};  // of the truth's walls: those that lie far off in the logs
+  Pairs not_found = {};      // of the truth's walls: those that lie far off in the logs
   bool other_gauge = false;  // more walls say what was moved is where it was than say what was not moved is
 };
 
@@ -172,8 +174,7 @@ INSTANTIATE_TEST_SUITE_P(All, AuthorLogs,
                                          // Two of the four walls of one direction are faces of one wall that was moved.
                                          Case{"SE1", "T5", "R2", {}, true},
                                          // Wall 98 was seen 0.67 m off and turned by 6 degrees.
-                                         Case{"SE1", "T0", "RAll", {{1, 98}}},
-                                         Case{"SE2", "T0", "RAll", {}, true}));
+                                         Case{"SE1", "T0", "RAll", {{1, 98}}}, Case{"SE2", "T0", "RAll", {}, true}));
 
 }  // namespace
 }  // namespace plumb::runtime

@@ -16,7 +16,8 @@ Clique Exhaustive(const Eigen::MatrixXd& affinity) {
   const auto n = static_cast<size_t>(affinity.rows());
   for (uint32_t subset = 1; subset < (1u << n); ++subset) {
     Clique clique;
-    for (size_t i = 0; i < n; ++i) if (subset >> i & 1u) clique.members.push_back(i);
+    for (size_t i = 0; i < n; ++i)
+      if (subset >> i & 1u) clique.members.push_back(i);
     bool allowed = true;
     for (size_t i : clique.members) {
       for (size_t j : clique.members) {
@@ -56,7 +57,8 @@ TEST(DensestClique, IsTheOptimumOfSmallGraphsNearlyAlwaysAndNeverFarBelow) {
 TEST(DensestClique, FindsAPlantedCliqueAmongOutliers) {
   test::Random random(3);
   Eigen::MatrixXd affinity = RandomAffinity(random, 80, 0.25);
-  for (Eigen::Index i = 0; i < 9; ++i) for (Eigen::Index j = 0; j < 9; ++j) affinity(7 * i + 2, 7 * j + 2) = i == j ? 1 : 0.95;
+  for (Eigen::Index i = 0; i < 9; ++i)
+    for (Eigen::Index j = 0; j < 9; ++j) affinity(7 * i + 2, 7 * j + 2) = i == j ? 1 : 0.95;
   const Clique clique = DensestClique(affinity);
   EXPECT_EQ(clique.members, (std::vector<size_t>{2, 9, 16, 23, 30, 37, 44, 51, 58}));
   EXPECT_NEAR(clique.density, 1 + 8 * 0.95, 1e-9);

@@ -6,8 +6,6 @@
 #include <chrono>
 #include <numbers>
 
-
-
 namespace plumb::runtime {
 namespace {
 

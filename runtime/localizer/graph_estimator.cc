@@ -6,6 +6,7 @@
 #include "runtime/coupling/coupling.h"
 #include "runtime/localizer/stopwatch.h"
 #include "runtime/mapping/mapper.h"
+#include "runtime/matching/graph/graph_search.h"
 #include "runtime/optimization/map_polish.h"
 #include "runtime/optimization/window_optimizer.h"
 
@@ -41,6 +42,7 @@ const char* VerdictName(Verdict verdict) {
 struct GraphEstimator::Impl {
   Impl(const AGraph& plan_in, const LocalizerOptions& options_in)
       : plan(plan_in), options(options_in), mapper(options.mapper), matcher(plan, options.matcher) {
+    if (options.matcher_kind == MatcherKind::kGraph) graph_search.emplace(plan, options.graph_matcher);
     ForgetFix();
   }
 
@@ -48,6 +50,7 @@ struct GraphEstimator::Impl {
   LocalizerOptions options;
   Mapper mapper;
   Matcher matcher;
+  std::optional<GraphSearch> graph_search;  // where rooms are to find the map instead of walls
 
   Verdict verdict = Verdict::kSearching;
   std::shared_ptr<const MatchTry> last_try;  // of the present map
@@ -82,7 +85,12 @@ struct GraphEstimator::Impl {
 
   // Tries to find the map in the plan. A try that leaves several places open is no fix.
   void Search(double stamp_s, const Eigen::Isometry3d& T_odom_lidar) {
-    last_try = std::make_shared<const MatchTry>(MatchTry{stamp_s, mapper.T_map_odom() * T_odom_lidar, matcher.Match(mapper.graph(), odometry_map == 0 ? options.hint : StartHint())});
+    if (graph_search && num_keyframes % static_cast<size_t>(options.derive_rooms_every) != 0) return;
+    const auto match_now = [&] {
+      if (graph_search) return graph_search->Match(mapper.graph());
+      return matcher.Match(mapper.graph(), odometry_map == 0 ? options.hint : StartHint());
+    };
+    last_try = std::make_shared<const MatchTry>(MatchTry{stamp_s, mapper.T_map_odom() * T_odom_lidar, match_now()});
     const MatchResult& match = last_try->result;
     switch (match.verdict) {
       case MatchResult::Verdict::kSearching:

@@ -6,6 +6,7 @@
 #include "runtime/coupling/coupling.h"
 #include "runtime/deviations/deviations.h"
 #include "runtime/mapping/mapper_options.h"
+#include "runtime/matching/graph/graph_matcher.h"
 #include "runtime/matching/matcher.h"
 #include "runtime/matching/start_hint.h"
 #include "runtime/odometry/odometry.h"
@@ -13,7 +14,12 @@
 
 namespace plumb::runtime {
 
+// What finds the map in the plan: walls and rays (matcher.h), or rooms by the paper's matcher (graph_matcher.h).
+enum class MatcherKind : uint8_t { kWall, kGraph };
+
 struct LocalizerOptions {
+  MatcherKind matcher_kind = MatcherKind::kWall;
+  int derive_rooms_every = 3;      // keyframes between two tries of the matcher by rooms
   int optimize_every = 1;          // keyframes between two solves once localized: ...
   double solve_all_growth = 0.05;  // ... of everything when the map has grown by this share since the last of them, ...
   int window_keyframes = 20;       // ... else of the poses of so many newest keyframes; at most mapper.recent_keyframes
@@ -23,7 +29,8 @@ struct LocalizerOptions {
   StartHint hint;                  // of the place where the first scan was taken; until the robot is carried off
   OdometryOptions odometry;
   MapperOptions mapper;
-  MatcherOptions matcher;
+  MatcherOptions matcher;  // once found, a place is watched by rays whatever found it
+  GraphMatcherOptions graph_matcher;
   CouplingOptions coupling;
   JointOptions joint;
   DeviationOptions deviations;

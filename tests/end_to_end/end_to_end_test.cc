@@ -9,6 +9,7 @@
 #include <string>
 
 #include "runtime/sources/recording.h"
+#include "schema/files.h"
 #include "tests/support/program.h"
 #include "tests/support/room_overlap.h"
 
@@ -108,6 +109,8 @@ TEST_F(EndToEnd, FindsAPlanarLaserInFurnishedOffices) {
 TEST_F(EndToEnd, RefusesBadInputWithStatusTwo) {
   EXPECT_EQ(Plumb(folder_, "localize rec/odometry.tum rec/ -o other/ 2> error.txt"), 2);
   EXPECT_EQ(Plumb(folder_, "localize plan.agraph truth/ -o other/ 2> error.txt"), 2);
+  EXPECT_EQ(Plumb(folder_, "localize plan.agraph rec/ -o other/ --matcher rooms 2> error.txt"), 2);
+  EXPECT_THAT(*ReadFileText((folder_ / "error.txt").string()), ::testing::HasSubstr("{wall,graph}"));
   EXPECT_EQ(Plumb(folder_, "evaluate truth/ --truth truth/ 2> error.txt"), 2);
   EXPECT_EQ(Plumb(folder_, "simulate plan.agraph --translation far -o other/ 2> error.txt"), 2);
 }

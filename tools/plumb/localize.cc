@@ -25,6 +25,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr const char *kWallMatcher = "wall", *kGraphMatcher = "graph";
+
 struct LocalizeFlags {
   std::string plan, recording, output;
   bool no_odometry = false;
@@ -207,6 +209,7 @@ RunInfo Describe(const LocalizeFlags& flags, const CLI::App& sub, const AGraph& 
     ++info.localized_scans;
   }
   if (!results.verdicts.empty()) info.duration_s = results.verdicts.back().stamp_s - results.verdicts.front().stamp_s;
+  info.matcher = flags.options.matcher_kind == runtime::MatcherKind::kGraph ? kGraphMatcher : kWallMatcher;
   info.planar = localizer.map().planar;
   info.keyframes = static_cast<size_t>(std::count_if(localizer.map().keyframes.begin(), localizer.map().keyframes.end(),
                                                      [](const runtime::Keyframe& keyframe) { return !keyframe.merged; }));
@@ -262,6 +265,9 @@ Expected<runtime::StartHint> HintOf(const LocalizeFlags& flags, const AGraph& pl
     const std::string near = NearestName(name, names);
     return Fail(ErrorCode::kBadOption, fmt::format("--room {}: the plan has no such room{}; `plumb inspect` lists them", name,
                                                    near.empty() ? "" : fmt::format("; did you mean `{}`?", near)));
+  }
+  if (hint.given() && flags.options.matcher_kind == runtime::MatcherKind::kGraph) {
+    return Fail(ErrorCode::kBadOption, "--near and --room go with --matcher wall; the graph matcher takes no hints");
   }
   if (std::string wrong = hint.Check(); !wrong.empty()) return Fail(ErrorCode::kBadOption, std::move(wrong));
   return hint;
@@ -347,6 +353,10 @@ void AddLocalize(CLI::App& app, Session& session) {
   sub->add_option("--threads", flags->replay.threads, "threads to work with; 0: all the machine has. The results are the same for any number");
   sub->add_option("--rate", flags->replay.rate,
                   "give scans at this multiple of the pace they were recorded at, as on a robot, and report latencies; 0: as fast as it goes, reproducibly");
+  sub->add_option_function<std::string>(
+         "--matcher", [flags](const std::string& name) { flags->options.matcher_kind = name == kGraphMatcher ? runtime::MatcherKind::kGraph : runtime::MatcherKind::kWall; },
+         "what finds the robot: wall, walls and rays; graph, rooms and their walls as in the paper, for comparison: needs two rooms with four walls")
+      ->check(CLI::IsMember({kWallMatcher, kGraphMatcher}))->default_str(kWallMatcher);
   sub->add_option("--tolerance", o.deviations.min_offset_m, "walls displaced by less are as planned, m");
   sub->add_option("--tolerance-angle", flags->tolerance_deg, "walls turned by less are as planned, deg");
   sub->add_option("--false-discovery-rate", o.deviations.false_discovery_rate, "share of wrong ones among the walls reported");

@@ -52,6 +52,9 @@ std::string Notes(const RunInfo& info, const Deviations& deviations) {
     out += fmt::format("<p class=\"note bad\">The robot was not localized in this plan{}{}. No deviations can be stated.</p>\n",
                        info.last_reason.empty() ? "" : ": ", EscapeXml(info.last_reason));
   }
+  if (info.matcher == "graph") {
+    out += "<p class=\"note\">The robot was found by the rooms of its map (<code>--matcher graph</code>), not by walls and rays.</p>\n";
+  }
   if (info.interrupted) out += "<p class=\"note bad\">The run was interrupted: only a part of the recording was used.</p>\n";
   if (info.untimed_scans > 0) {
     out += fmt::format("<p class=\"note bad\">{} of {} scans had no usable time per point: walls seen while the robot turned are bent, by centimetres and "

@@ -48,6 +48,7 @@ std::string RunInfoToJson(const RunInfo& info) {
     summary["pace"] = {{"rate", info.pace->rate}, {"latency_p50_ms", info.pace->latency_p50_ms}, {"latency_p99_ms", info.pace->latency_p99_ms},
                        {"held_solves", info.pace->held_solves}, {"unmapped_scans", info.pace->unmapped_scans}};
   }
+  summary["matcher"] = info.matcher;
   summary["last_reason"] = info.last_reason;
   out["summary"] = std::move(summary);
   return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
@@ -83,6 +84,7 @@ Expected<RunInfo> ParseRunInfo(const std::string& json, const std::string& sourc
       info.pace = Pace{pace->at("rate").get<double>(), pace->at("latency_p50_ms").get<double>(), pace->at("latency_p99_ms").get<double>(),
                        pace->at("held_solves").get<size_t>(), pace->at("unmapped_scans").get<size_t>()};
     }
+    info.matcher = summary.value("matcher", info.matcher);
     summary.at("last_reason").get_to(info.last_reason);
     return info;
   } catch (const Json::exception& e) {

@@ -40,6 +40,7 @@ struct RunInfo {
   double range_bias_m = 0;   // estimated common bias of the sensor's ranges
   double ms_per_scan = 0;    // mean over all stages
   std::optional<Pace> pace;
+  std::string matcher = "wall";  // wall | graph: what found the robot in the plan
   std::string last_reason;   // why it did not localize; empty if it did
 };
 

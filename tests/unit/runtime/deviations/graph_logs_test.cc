@@ -1,6 +1,6 @@
 // The joint estimate on the graph logs of the diS-Graphs authors: simulated building SE1, plans T1 to T5 with walls moved by known amounts,
 // map R2 with two rooms. Skipped where the data are absent.
-#include "tests/support/graph_logs.h"
+#include "tests/support/author_logs.h"
 
 #include <gtest/gtest.h>
 

@@ -32,8 +32,9 @@ Errors ErrorOf(const Eigen::Isometry3d& estimate, const Eigen::Isometry3d& truth
 
 // A localizer on a drive, `tilt` turning the sensor against the robot.
 struct Session {
-  explicit Session(const AGraph& plan, const AGraph& built, const Eigen::Quaterniond& tilt = Eigen::Quaterniond::Identity())
-      : localizer(plan), lidar(built, Sparse()), T_base_lidar(tilt) {}
+  explicit Session(const AGraph& plan, const AGraph& built, const Eigen::Quaterniond& tilt = Eigen::Quaterniond::Identity(),
+                   const LocalizerOptions& options = {})
+      : localizer(plan, options), lidar(built, Sparse()), T_base_lidar(tilt) {}
 
   [[nodiscard]] Eigen::Isometry3d TruthAt(double t_s) const { return drive.At(t_s) * T_base_lidar; }
   ScanVerdict Next() {
@@ -88,6 +89,20 @@ TEST(Localizer, FindsAndTracksTheRobotFromNothing) {
   const Trajectory smoothed = run.localizer.SmoothedTrajectory();
   ASSERT_EQ(smoothed.size(), static_cast<size_t>(std::lround(run.time_s / kPeriod_s)));  // every scan, those before the fix as well
   for (const StampedPose& pose : smoothed) EXPECT_LT(ErrorOf(pose.T, run.TruthAt(pose.stamp_s)).position_m, 0.03) << "at " << pose.stamp_s;
+}
+
+TEST(Localizer, FindsTheRobotByRoomsWithTheMatcherByGraphs) {
+  const AGraph house = test::MakeHouse();
+  LocalizerOptions options;
+  options.matcher_kind = MatcherKind::kGraph;
+  Session run(house, house, Eigen::Quaterniond::Identity(), options);
+  const double found_s = run.Until(Verdict::kLocalized, 60);
+  ASSERT_GT(found_s, 5) << "two rooms take their time";
+  const ScanVerdict v = run.Next();
+  ASSERT_TRUE(v.T_plan_lidar);
+  const Errors error = ErrorOf(*v.T_plan_lidar, run.TruthAt(v.stamp_s));
+  EXPECT_LT(error.position_m, 0.06);
+  EXPECT_LT(error.yaw_rad, 0.01);
 }
 
 // A lidar mounted, or a robot started, at a tilt: the poses come out in the level plan frame all the same.

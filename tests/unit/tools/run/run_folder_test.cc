@@ -70,11 +70,13 @@ TEST(RunInfo, ReadsBackAsWritten) {
   info.time_to_localize_s = 4.25;
   info.scans = 1200;
   info.last_reason = "";
+  info.matcher = "graph";
   const auto read = ParseRunInfo(RunInfoToJson(info), "run.json");
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(RunInfoToJson(*read), RunInfoToJson(info));
   EXPECT_EQ(read->plan_source, info.plan_source);
   EXPECT_EQ(read->time_to_localize_s, info.time_to_localize_s);
+  EXPECT_EQ(read->matcher, "graph");
   EXPECT_FALSE(read->pace);
   info.time_to_localize_s.reset();
   EXPECT_FALSE(ParseRunInfo(RunInfoToJson(info), "run.json")->time_to_localize_s.has_value());

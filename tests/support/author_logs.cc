@@ -1,9 +1,11 @@
-#include "tests/support/graph_logs.h"
+#include "tests/support/author_logs.h"
 
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 namespace plumb::test {
 
@@ -21,6 +23,11 @@ std::vector<LoggedRoom> ReadLoggedRooms(const std::string& folder) {
     std::ifstream in(file);
     for (std::string word; in >> word;) {
       if (word == "id") in >> room.id;
+      if (word == "room_node") {
+        Eigen::Matrix<double, 2, 4> top;  // of the pose
+        for (int row = 0; row < 2; ++row) for (int column = 0; column < 4; ++column) in >> top(row, column);
+        room.center = top.col(3);
+      }
       for (size_t i = 0; i < 4; ++i) {
         if (word == names[i] + "_id") in >> room.plane_ids[i];
         if (word != names[i] + "_node") continue;
@@ -32,6 +39,25 @@ std::vector<LoggedRoom> ReadLoggedRooms(const std::string& folder) {
     rooms.push_back(room);
   }
   return rooms;
+}
+
+std::vector<LoggedPlane> ReadLoggedPlanes(const std::string& g2o_path) {
+  std::ifstream in(g2o_path);
+  std::map<int, LoggedPlane> planes;
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream words(line);
+    std::string kind;
+    int id = -1;
+    words >> kind >> id;
+    if (kind == "FIX" && planes.contains(id)) planes[id].fixed = true;
+    if (kind != "VERTEX_PLANE") continue;
+    Eigen::Vector4d p;
+    for (double& x : p) words >> x;
+    planes[id] = {id, Eigen::Vector3d(p.x(), p.y(), p.w()) / p.head<2>().norm(), false};
+  }
+  std::vector<LoggedPlane> out;
+  for (const auto& [id, plane] : planes) out.push_back(plane);
+  return out;
 }
 
 LoggedTruth ReadLoggedTruth(const std::string& path) {

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <set>
 
+#include "compiler/frontends/drawing/curved_openings.h"
 #include "compiler/frontends/drawing/framed_doors.h"
 #include "compiler/frontends/drawing/opening_symbols.h"
 #include "compiler/frontends/drawing/plane.h"
@@ -63,7 +64,7 @@ class OpeningPlaces {
 class OpeningFinder {
  public:
   OpeningFinder(const Drawing& drawing, const std::vector<uint32_t>& paths, const Outline& outline, const OpeningOptions& options)
-      : drawing_(drawing), paths_(paths), outline_(outline), options_(options), symbols_(drawing, paths, options) {
+      : drawing_(drawing), paths_(paths), outline_(outline), options_(options), curves_(outline, options), symbols_(drawing, paths, options) {
     std::vector<Eigen::AlignedBox2d> boxes;
     for (const DrawnSpace& space : drawing.spaces) boxes.push_back(BoxOf(space.outline));
     rooms_ = BoxTree<2>(std::move(boxes));
@@ -91,6 +92,11 @@ class OpeningFinder {
     const Side& s = outline_.sides()[end];
     const double thickness = s.length_m();
     if (s.curved || thickness < kMinEnd_m || thickness > kMaxEnd_m || !outline_.IsEnd(end)) return std::nullopt;
+    if (curves_.IsEndOfCurve(end)) {
+      std::optional<CurvedGap> curved = curves_.GapBefore(end);
+      if (!curved) return std::nullopt;
+      return Gap{std::move(curved->opening), end, curved->far_side, outline_.IsEnd(curved->far_side)};
+    }
     const Eigen::Vector2d out = -Perp(s.along());
     std::optional<SideHit> first;
     for (const double at : {0.5, 0.2, 0.8}) {
@@ -256,7 +262,8 @@ class OpeningFinder {
       if (width < options_.min_width_m || width > options_.max_door_gap_m) continue;
       const double near = options_.symbol_slack_m;
       if (outline_.DistanceTo(a, 2 * near) >= near || outline_.DistanceTo(b, 2 * near) >= near) continue;
-      std::optional<DrawnOpening> o = OverWall(a, b);
+      std::optional<DrawnOpening> o = curves_.Between(a, b);
+      if (!o) o = OverWall(a, b);
       if (!o && !outline_.InWall(0.5 * (a + b))) o = BetweenWalls(a, b);
       if (!o) continue;
       o->use = DrawnUse::kDoor;
@@ -308,15 +315,15 @@ class OpeningFinder {
   std::vector<uint32_t> InWallPartsOf(uint32_t p) const {
     std::vector<uint32_t> boxes;
     for (const uint32_t q : symbols_.PathsWith(p)) {
-      if (drawing_.paths[q].closed && drawing_.paths[q].arcs.empty()) boxes.push_back(q);
+      const auto& arcs = drawing_.paths[q].arcs;
+      const bool swings = std::any_of(arcs.begin(), arcs.end(), [&](const Arc& arc) { return IsSwing(arc, options_); });
+      if (drawing_.paths[q].closed && !swings) boxes.push_back(q);
     }
     return boxes.empty() ? symbols_.PathsWith(p) : boxes;
   }
 
-  // A window or a door without a swing whose box lies over a wall; its paths are looked at together.
-  void AddOverWall(uint32_t p) {
-    const DrawnPath& path = drawing_.paths[p];
-    const std::vector<uint32_t> members = InWallPartsOf(p);
+  // The box around the paths, along the longest line among them, if it lies over a wall.
+  std::optional<DrawnOpening> OfBox(const std::vector<uint32_t>& members) const {
     Eigen::AlignedBox2d box;
     Eigen::Vector2d u = Eigen::Vector2d::Zero();
     for (const uint32_t q : members) {
@@ -326,16 +333,26 @@ class OpeningFinder {
         if (d.norm() > u.norm()) u = d;
       }
     }
-    if (u.norm() < options_.min_width_m) return;
+    if (u.norm() < options_.min_width_m) return std::nullopt;
     u.normalize();
     for (const uint32_t q : members) {
       for (const auto& point : drawing_.paths[q].points) box.extend(Eigen::Vector2d(u.dot(point), Cross(u, point)));
     }
     const Eigen::Vector2d c = box.center(), m = c.x() * u + c.y() * Perp(u);
     const double half = 0.5 * box.sizes().x();
-    if (box.sizes().y() > kMaxEnd_m || !outline_.InWall(m)) return;
-    std::optional<DrawnOpening> o = OverWall(m - half * u, m + half * u);
-    if (!o || o->width_m() > options_.max_window_gap_m) return;
+    if (box.sizes().y() > kMaxEnd_m || !outline_.InWall(m)) return std::nullopt;
+    return OverWall(m - half * u, m + half * u);
+  }
+
+  // A window or a door without a swing that lies over a wall; its paths are looked at together.
+  void AddOverWall(uint32_t p) {
+    const DrawnPath& path = drawing_.paths[p];
+    const std::vector<uint32_t> members = InWallPartsOf(p);
+    std::vector<Eigen::Vector2d> points;
+    for (const uint32_t q : members) points.insert(points.end(), drawing_.paths[q].points.begin(), drawing_.paths[q].points.end());
+    std::optional<DrawnOpening> o = curves_.Along(points);
+    if (!o) o = OfBox(members);
+    if (!o || o->width_m() < options_.min_width_m || o->width_m() > options_.max_window_gap_m) return;
     o->use = path.role == LineRole::kDoor ? DrawnUse::kDoor : path.role == LineRole::kWindow ? DrawnUse::kWindow : DrawnUse::kPassage;
     o->path = p;
     o->location = path.location;
@@ -348,6 +365,7 @@ class OpeningFinder {
   const std::vector<uint32_t>& paths_;  // of doors and windows
   const Outline& outline_;
   const OpeningOptions& options_;
+  const CurvedOpenings curves_;
   OpeningSymbols symbols_;
   std::set<uint32_t> jambs_;  // sides at the ends of openings
   std::vector<DrawnOpening> out_;
@@ -363,6 +381,19 @@ std::string OpeningOptions::Check() const {
   if (!(min_width_m > 0)) return fmt::format("OpeningOptions.min_width_m = {}; must be positive", min_width_m);
   if (!(max_bare_gap_m >= 0)) return fmt::format("OpeningOptions.max_bare_gap_m = {}; must not be negative", max_bare_gap_m);
   return {};
+}
+
+Eigen::Vector2d DrawnOpening::middle() const {
+  const Eigen::Vector2d chord = 0.5 * (from + to);
+  return curve ? PointAt(*curve, AngleAt(*curve, chord)) : chord;
+}
+
+Eigen::Vector2d DrawnOpening::Local(const Eigen::Vector2d& p) const {
+  const Eigen::Vector2d offset = p - middle();
+  if (!curve) return {along().dot(offset), Cross(along(), offset)};
+  const double turn = Cross(from - curve->center, to - curve->center) > 0 ? 1 : -1;  // the centre is on the left if it is 1
+  const double angle_rad = Nearest(AngleAt(*curve, p), AngleAt(*curve, middle())) - AngleAt(*curve, middle());
+  return {turn * angle_rad * curve->radius_m, turn * (curve->radius_m - (p - curve->center).norm())};
 }
 
 bool IsSwing(const Arc& arc, const OpeningOptions& options) {

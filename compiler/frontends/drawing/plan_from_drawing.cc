@@ -154,8 +154,9 @@ class StoreyBuilder {
     PlanElement wall = NewElement(ElementKind::kWall, LocationOf(run.source));
     wall.uncut = Prism(run.Corners(), base_m_, top_m_);
     wall.thickness_m = run.thickness_m();
+    wall.arcs = run.Arcs();
     const double middle = 0.5 * (run.left_m + run.right_m);
-    wall.axis = std::make_pair(run.At(run.start_m, middle), run.At(run.end_m, middle));
+    if (!run.curve) wall.axis = std::make_pair(run.At(run.start_m, middle), run.At(run.end_m, middle));
     std::sort(run.openings.begin(), run.openings.end(),
               [&](uint32_t a, uint32_t b) { return run.S(openings_[a].middle()) < run.S(openings_[b].middle()); });
     double at = run.start_m;
@@ -192,7 +193,7 @@ class StoreyBuilder {
     PlanOpening opening;
     opening.location = drawn.location;
     opening.wall = wall;
-    opening.width_m = to - from;
+    opening.width_m = (run.At(to, 0) - run.At(from, 0)).norm();
     opening.height_m = head - sill;
     opening.body = Prism(run.Part(from, to), sill, head);
     if (drawn.use != DrawnUse::kPassage) {
@@ -200,8 +201,7 @@ class StoreyBuilder {
       if (drawn.use == DrawnUse::kWindow) {
         filling.material = Material::kGlass;
         const double middle = 0.5 * (run.left_m + run.right_m), half = 0.5 * kSymbolDepth_m;
-        filling.body = Prism(
-            {run.At(from, middle - half), run.At(to, middle - half), run.At(to, middle + half), run.At(from, middle + half)}, sill, head);
+        filling.body = Prism(run.Layer(from, to, middle - half, middle + half), sill, head);
       }
       opening.filling = static_cast<uint32_t>(plan_.elements.size());
       plan_.elements.push_back(std::move(filling));
@@ -218,7 +218,7 @@ class StoreyBuilder {
     std::vector<Eigen::AlignedBox2d> boxes;
     for (const WallRun& run : runs_) {
       const auto corners = run.Corners();
-      for (size_t k = 0; k < 4; ++k) lines.push_back({corners[k], corners[(k + 1) % 4], run.source});
+      for (size_t k = 0; k < corners.size(); ++k) lines.push_back({corners[k], corners[(k + 1) % corners.size()], run.source});
       boxes.push_back(BoxOf(corners));
     }
     const std::optional<LineMap> map = LineMap::Build(lines, options_.mass.join_m, options_.mass.max_vertices);

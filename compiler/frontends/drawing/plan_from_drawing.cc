@@ -17,6 +17,7 @@ namespace {
 constexpr double kOff_m = 1e-3;
 constexpr double kSliver_m = 0.02;  // leftovers thinner than this are rounding
 constexpr double kMinLeftover_m2 = 1e-3;
+constexpr double kSwingShare = 0.25;    // of a line's length, for it to be the swing of a leaf
 constexpr double kSymbolDepth_m = 0.04;  // of a door leaf in its opening
 
 Solid Prism(const std::vector<Eigen::Vector2d>& ring, double bottom_m, double top_m) {
@@ -55,7 +56,7 @@ class StoreyBuilder {
  private:
   bool Fail() {
     sink_.Emit(DiagnosticKind::kPlanTooComplex, {},
-               fmt::format("the drawing's lines cross more than {} times", options_.mass.max_vertices));
+               fmt::format("the drawing's lines end, meet and cross in more than {} places", options_.mass.max_vertices));
     return false;
   }
 
@@ -64,7 +65,7 @@ class StoreyBuilder {
     std::vector<const Arc*> swings;
     for (const DrawnPath& path : drawing_.paths) {
       for (const Arc& arc : path.arcs) {
-        if (path.role == LineRole::kAny && IsSwing(arc, options_.openings)) swings.push_back(&arc);
+        if (path.role == LineRole::kAny && IsSwing(arc, options_.openings) && IsMostly(arc, path)) swings.push_back(&arc);
       }
     }
     std::vector<Eigen::AlignedBox2d> hinges;
@@ -73,12 +74,20 @@ class StoreyBuilder {
     for (uint32_t p = 0; p < drawing_.paths.size(); ++p) {
       const DrawnPath& path = drawing_.paths[p];
       const bool wall = path.role == LineRole::kWall || path.role == LineRole::kColumn;
-      const bool swing = std::any_of(path.arcs.begin(), path.arcs.end(), [&](const Arc& a) { return IsSwing(a, options_.openings); });
+      const bool swing = std::any_of(path.arcs.begin(), path.arcs.end(),
+                                     [&](const Arc& a) { return IsSwing(a, options_.openings) && IsMostly(a, path); });
       if (wall || (path.role == LineRole::kAny && !swing && !IsLeaf(path, swings, tree)))
         wall_paths_.push_back(p);
       else
         symbols_.push_back(p);
     }
+  }
+
+  // The rest of a swing's line is at most its leaf; a rounded corner is little of a wall's outline.
+  static bool IsMostly(const Arc& arc, const DrawnPath& path) {
+    double length_m = path.closed ? (path.points.back() - path.points.front()).norm() : 0;
+    for (size_t i = 0; i + 1 < path.points.size(); ++i) length_m += (path.points[i + 1] - path.points[i]).norm();
+    return std::abs(arc.sweep_rad) * arc.radius_m > kSwingShare * length_m;
   }
 
   // A line or a thin box from the hinge, as long as the swing's radius.

@@ -22,6 +22,7 @@ constexpr double kSkewEnds = 0.87;   // ... between ends of walls: the two lines
 constexpr double kMinEnd_m = 0.03;   // narrower ends are no walls
 constexpr double kBeyond_m = 0.15;   // from the faces of a wall into the rooms beside it
 constexpr double kLeavesMeet_m = 0.1;
+constexpr double kFrame_m = 0.2;  // a frame's width and a bit
 constexpr double kSillShare = 0.85;  // a window's line runs from jamb to jamb
 
 // A gap between two sides of walls, as a rectangle: `from` to `to` and half the depth to both sides.
@@ -76,8 +77,12 @@ class OpeningFinder {
     for (const uint32_t p : paths_) {
       if (!symbols_.IsUsed(p)) AddFromSymbol(p);
     }
-    for (DrawnOpening& framed : FindFramedDoors(drawing_, outline_.mass())) {
-      if (!IsKnown(framed) && !IsWithinARoom(framed)) Keep(std::move(framed));
+    JoinLeafPairs();
+    // The narrowest first: between two doors there is a wider piece of wall with a frame at both ends, too.
+    std::vector<DrawnOpening> all_framed = FindFramedDoors(drawing_, outline_.mass());
+    std::stable_sort(all_framed.begin(), all_framed.end(), [](const auto& a, const auto& b) { return a.width_m() < b.width_m(); });
+    for (DrawnOpening& framed : all_framed) {
+      if (!IsKnown(framed) && !IsBetweenDoors(framed) && !IsWithinARoom(framed)) Keep(std::move(framed));
     }
     return std::move(out_);
   }
@@ -309,6 +314,62 @@ class OpeningFinder {
     out.to = m + ahead->t_m * u;
     out.depth_m = std::clamp(outline_.mass().typical_thickness_m, 0.05, 0.2);
     return out;
+  }
+
+  // Its frame is that of a door beside it: the piece of wall from there to the next frame.
+  bool IsBetweenDoors(const DrawnOpening& framed) const {
+    bool shared = false;
+    places_.ForEachNear(framed, [&](uint32_t k) {
+      const DrawnOpening& o = out_[k];
+      if (o.use == DrawnUse::kWindow || std::abs(o.along().dot(framed.along())) < kAgainst) return;
+      for (const Eigen::Vector2d& p : {o.from, o.to}) {
+        for (const Eigen::Vector2d& q : {framed.from, framed.to}) shared = shared || (p - q).norm() < kFrame_m;
+      }
+    });
+    return shared;
+  }
+
+  // Two leaves that meet when closed are one doorway, also where something narrow stands between them.
+  void JoinLeafPairs() {
+    std::vector<bool> joined(out_.size(), false);
+    for (const Leaf& leaf : leaves_) {
+      const std::optional<Eigen::Vector2d> mate = HingeOfMate(leaf);
+      const uint32_t a = mate ? DoorFrom(leaf.hinge, leaf.tip) : kNone, b = mate ? DoorFrom(*mate, leaf.tip) : kNone;
+      if (a == kNone || b == kNone || a == b || joined[a] || joined[b]) continue;
+      DrawnOpening &first = out_[std::min(a, b)], &second = out_[std::max(a, b)];
+      const Eigen::Vector2d u = first.along();
+      if (std::abs(u.dot(second.along())) < kAgainst || std::abs(Cross(u, second.middle() - first.middle())) > 0.5 * first.depth_m) continue;
+      for (const Eigen::Vector2d& p : {second.from, second.to}) {
+        const double s = u.dot(p - first.from);
+        if (s < 0) first.from += s * u;
+        if (s > first.width_m()) first.to = first.from + s * u;
+      }
+      first.in_wall = first.in_wall && second.in_wall;
+      joined[std::max(a, b)] = true;
+    }
+    std::vector<DrawnOpening> kept;
+    for (size_t i = 0; i < out_.size(); ++i) {
+      if (!joined[i]) kept.push_back(std::move(out_[i]));
+    }
+    out_.clear();
+    places_ = {};
+    for (DrawnOpening& o : kept) Keep(std::move(o));
+  }
+
+  // The straight door that a closed leaf fills.
+  uint32_t DoorFrom(const Eigen::Vector2d& hinge, const Eigen::Vector2d& tip) const {
+    const double near_m = options_.symbol_slack_m;
+    const auto at = [&](const Eigen::Vector2d& p, const Eigen::Vector2d& q) { return (p - q).norm() < near_m + kLeavesMeet_m; };
+    DrawnOpening closed;
+    closed.from = hinge;
+    closed.to = tip;
+    uint32_t best = kNone;
+    places_.ForEachNear(closed, [&](uint32_t i) {
+      const DrawnOpening& o = out_[i];
+      if (o.use != DrawnUse::kDoor || o.curve) return;
+      if ((at(o.from, hinge) && at(o.to, tip)) || (at(o.to, hinge) && at(o.from, tip))) best = std::min(best, i);
+    });
+    return best;
   }
 
   // The paths of its symbol that can lie in the wall: boxes if there are any, as swings and open leaves stand out of it.

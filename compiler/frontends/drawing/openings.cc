@@ -4,13 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <set>
 
 #include "compiler/frontends/drawing/curved_openings.h"
+#include "compiler/frontends/drawing/door_leaves.h"
 #include "compiler/frontends/drawing/framed_doors.h"
+#include "compiler/frontends/drawing/opening_places.h"
 #include "compiler/frontends/drawing/opening_symbols.h"
+#include "compiler/frontends/drawing/openings_on_walls.h"
 #include "compiler/frontends/drawing/plane.h"
 
 namespace plumb::compiler {
@@ -21,7 +23,6 @@ constexpr double kAgainst = 0.96;    // cosine between sides that face each othe
 constexpr double kSkewEnds = 0.87;   // ... between ends of walls: the two lines of a wall often end askew
 constexpr double kMinEnd_m = 0.03;   // narrower ends are no walls
 constexpr double kBeyond_m = 0.15;   // from the faces of a wall into the rooms beside it
-constexpr double kLeavesMeet_m = 0.1;
 constexpr double kFrame_m = 0.2;  // a frame's width and a bit
 constexpr double kSillShare = 0.85;  // a window's line runs from jamb to jamb
 
@@ -32,44 +33,13 @@ struct Gap {
   bool between_ends = false;
 };
 
-// Openings by the squares of the plan that their boxes meet: the ones close to another are found without a look at all.
-class OpeningPlaces {
- public:
-  void Add(const DrawnOpening& o, uint32_t number) {
-    ForEachCell(o, [&](const Cell& cell) { numbers_[cell].push_back(number); });
-  }
-  // Some more than once.
-  template <class Visit>
-  void ForEachNear(const DrawnOpening& o, const Visit& visit) const {
-    ForEachCell(o, [&](const Cell& cell) {
-      if (const auto found = numbers_.find(cell); found != numbers_.end()) std::for_each(found->second.begin(), found->second.end(), visit);
-    });
-  }
-
- private:
-  using Cell = std::pair<int64_t, int64_t>;
-  static constexpr double kCell_m = 4;
-
-  template <class Visit>
-  static void ForEachCell(const DrawnOpening& o, const Visit& visit) {
-    const Eigen::Vector2d low = o.from.cwiseMin(o.to).array() - 0.5 * o.depth_m, high = o.from.cwiseMax(o.to).array() + 0.5 * o.depth_m;
-    const auto cell = [](double at_m) { return static_cast<int64_t>(std::floor(at_m / kCell_m)); };
-    for (int64_t x = cell(low.x()); x <= cell(high.x()); ++x) {
-      for (int64_t y = cell(low.y()); y <= cell(high.y()); ++y) visit(Cell(x, y));
-    }
-  }
-
-  std::map<Cell, std::vector<uint32_t>> numbers_;
-};
-
 class OpeningFinder {
  public:
   OpeningFinder(const Drawing& drawing, const std::vector<uint32_t>& paths, const Outline& outline, const OpeningOptions& options)
-      : drawing_(drawing), paths_(paths), outline_(outline), options_(options), curves_(outline, options), symbols_(drawing, paths, options) {
+      : drawing_(drawing), paths_(paths), outline_(outline), options_(options), curves_(outline, options), symbols_(drawing, paths, options), leaves_(drawing, paths, options) {
     std::vector<Eigen::AlignedBox2d> boxes;
     for (const DrawnSpace& space : drawing.spaces) boxes.push_back(BoxOf(space.outline));
     rooms_ = BoxTree<2>(std::move(boxes));
-    CollectLeaves();
   }
 
   std::vector<DrawnOpening> Run() {
@@ -88,10 +58,6 @@ class OpeningFinder {
   }
 
  private:
-  struct Leaf {
-    Eigen::Vector2d hinge, tip;
-  };
-
   // Across the gap in front of an end of a wall.
   std::optional<Gap> GapBefore(uint32_t end) const {
     const Side& s = outline_.sides()[end];
@@ -213,63 +179,16 @@ class OpeningFinder {
     return within;
   }
 
-  // Where a closed leaf may stand: from the hinge to an end of its swing.
-  std::vector<Leaf> LeavesOfSwings(uint32_t p) const {
-    std::vector<Leaf> out;
-    for (const Arc& arc : drawing_.paths[p].arcs) {
-      if (!IsSwing(arc, options_)) continue;
-      for (const double at : {arc.start_rad, arc.start_rad + arc.sweep_rad})
-        out.push_back({arc.center, arc.center + arc.radius_m * Eigen::Vector2d(std::cos(at), std::sin(at))});
-    }
-    return out;
-  }
-
-  void CollectLeaves() {
-    std::vector<Eigen::AlignedBox2d> tips;
-    for (const uint32_t p : paths_) {
-      for (const Leaf& leaf : LeavesOfSwings(p)) {
-        leaves_.push_back(leaf);
-        tips.emplace_back(leaf.tip);
-      }
-    }
-    tips_ = BoxTree<2>(std::move(tips));
-  }
-
-  // The hinge of the other of two leaves that meet when closed; none: this one closes its door alone.
-  std::optional<Eigen::Vector2d> HingeOfMate(const Leaf& leaf) const {
-    const Eigen::Vector2d reach = Eigen::Vector2d::Constant(kLeavesMeet_m);
-    uint32_t mate = kNone;
-    tips_.ForEachIn({leaf.tip - reach, leaf.tip + reach}, [&](uint32_t i) {
-      const Eigen::Vector2d d = leaves_[i].tip - leaves_[i].hinge;
-      if (i < mate && d.normalized().dot((leaf.tip - leaf.hinge).normalized()) < -kAgainst) mate = i;
-    });
-    return mate == kNone ? std::nullopt : std::optional(leaves_[mate].hinge);
-  }
-
-  // Those of a swing, two of a pair as one, or along a line.
-  std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> ClosedLeaves(uint32_t p) const {
-    const DrawnPath& path = drawing_.paths[p];
-    std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> out;
-    const std::vector<Leaf> leaves = LeavesOfSwings(p);
-    for (const Leaf& leaf : leaves) {
-      if (const auto other = HingeOfMate(leaf)) out.emplace_back(leaf.hinge, *other);
-    }
-    for (const Leaf& leaf : leaves) out.emplace_back(leaf.hinge, leaf.tip);
-    if (path.arcs.empty() && !path.closed && path.points.size() == 2 && path.role == LineRole::kDoor)
-      out.emplace_back(path.points[0], path.points[1]);
-    return out;
-  }
-
   void AddFromSymbol(uint32_t p) {
     const DrawnPath& path = drawing_.paths[p];
-    for (const auto& [a, b] : ClosedLeaves(p)) {
+    for (const auto& [a, b] : leaves_.Closed(p)) {
       const double width = (b - a).norm();
       if (width < options_.min_width_m || width > options_.max_door_gap_m) continue;
       const double near = options_.symbol_slack_m;
       if (outline_.DistanceTo(a, 2 * near) >= near || outline_.DistanceTo(b, 2 * near) >= near) continue;
       std::optional<DrawnOpening> o = curves_.Between(a, b);
-      if (!o) o = OverWall(a, b);
-      if (!o && !outline_.InWall(0.5 * (a + b))) o = BetweenWalls(a, b);
+      if (!o) o = OpeningOverWall(outline_, a, b);
+      if (!o && !outline_.InWall(0.5 * (a + b))) o = OpeningBetweenWalls(outline_, a, b, options_.symbol_slack_m);
       if (!o) continue;
       o->use = DrawnUse::kDoor;
       o->path = p;
@@ -280,40 +199,6 @@ class OpeningFinder {
       return;
     }
     if (path.role == LineRole::kWindow || path.role == LineRole::kDoor || path.role == LineRole::kPassage) AddOverWall(p);
-  }
-
-  // The wall goes on behind the symbol.
-  std::optional<DrawnOpening> OverWall(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {
-    const Eigen::Vector2d u = (b - a).normalized(), n = Perp(u), m = 0.5 * (a + b);
-    // Leaves are often drawn right on the wall's face.
-    for (const double off_m : {0.0, kMinEnd_m, -kMinEnd_m}) {
-      const Eigen::Vector2d inside = m + off_m * n;
-      if (!outline_.InWall(inside)) continue;
-      const auto left = outline_.Cast(inside, n, kMaxEnd_m), right = outline_.Cast(inside, -n, kMaxEnd_m);
-      if (!left || !right || left->t_m + right->t_m < kMinEnd_m) continue;
-      if (std::abs(outline_.sides()[left->side].along().dot(u)) < kAgainst) continue;
-      DrawnOpening out;
-      const Eigen::Vector2d shift = (off_m + 0.5 * (left->t_m - right->t_m)) * n;
-      out.from = a + shift;
-      out.to = b + shift;
-      out.depth_m = left->t_m + right->t_m;
-      out.in_wall = true;
-      return out;
-    }
-    return std::nullopt;
-  }
-
-  // A door between walls that have no ends there: across a corridor.
-  std::optional<DrawnOpening> BetweenWalls(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {
-    const Eigen::Vector2d u = (b - a).normalized(), m = 0.5 * (a + b);
-    const double reach = 0.5 * (b - a).norm() + 2 * options_.symbol_slack_m;
-    const auto ahead = outline_.Cast(m, u, reach), back = outline_.Cast(m, -u, reach);
-    if (!ahead || !back) return std::nullopt;
-    DrawnOpening out;
-    out.from = m - back->t_m * u;
-    out.to = m + ahead->t_m * u;
-    out.depth_m = std::clamp(outline_.mass().typical_thickness_m, 0.05, 0.2);
-    return out;
   }
 
   // Its frame is that of a door beside it: the piece of wall from there to the next frame.
@@ -332,8 +217,8 @@ class OpeningFinder {
   // Two leaves that meet when closed are one doorway, also where something narrow stands between them.
   void JoinLeafPairs() {
     std::vector<bool> joined(out_.size(), false);
-    for (const Leaf& leaf : leaves_) {
-      const std::optional<Eigen::Vector2d> mate = HingeOfMate(leaf);
+    for (const DoorLeaf& leaf : leaves_.all()) {
+      const std::optional<Eigen::Vector2d> mate = leaves_.HingeOfMate(leaf);
       const uint32_t a = mate ? DoorFrom(leaf.hinge, leaf.tip) : kNone, b = mate ? DoorFrom(*mate, leaf.tip) : kNone;
       if (a == kNone || b == kNone || a == b || joined[a] || joined[b]) continue;
       DrawnOpening &first = out_[std::min(a, b)], &second = out_[std::max(a, b)];
@@ -402,7 +287,7 @@ class OpeningFinder {
     const Eigen::Vector2d c = box.center(), m = c.x() * u + c.y() * Perp(u);
     const double half = 0.5 * box.sizes().x();
     if (box.sizes().y() > kMaxEnd_m || !outline_.InWall(m)) return std::nullopt;
-    return OverWall(m - half * u, m + half * u);
+    return OpeningOverWall(outline_, m - half * u, m + half * u);
   }
 
   // A window or a door without a swing that lies over a wall; its paths are looked at together.
@@ -431,8 +316,7 @@ class OpeningFinder {
   std::set<uint32_t> jambs_;  // sides at the ends of openings
   std::vector<DrawnOpening> out_;
   OpeningPlaces places_;  // of out_
-  std::vector<Leaf> leaves_;
-  BoxTree<2> tips_;       // of leaves_
+  const DoorLeaves leaves_;
   BoxTree<2> rooms_;      // as the drawing outlines them
 };
 

@@ -6,9 +6,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <set>
 
+#include "compiler/frontends/drawing/curve_edges.h"
 #include "compiler/frontends/drawing/plane.h"
 #include "compiler/geometry/box_tree.h"
 
@@ -23,8 +23,6 @@ constexpr double kAround_m = 0.1;    // ... to the walls around it
 constexpr double kSampled_m = 0.4;  // between points where a face is measured
 constexpr int kMaxSamples = 40;     // on one side of it
 constexpr double kOff_m = 1e-4;  // from a line into the face beside it
-constexpr double kOnArc_m = 0.01;  // ends of a step from its arc
-constexpr double kAcross = 0.5;    // cosine between a step and the radius at its middle
 
 struct WeightedLength {
   double value_m, weight_m;
@@ -61,7 +59,7 @@ class MassFinder {
       out_.single_lines = true;
       out_.single_m = single_m;
     }
-    FindCurves();
+    FindCurves(drawing_, paths_, out_);
     return std::move(out_);
   }
 
@@ -75,41 +73,6 @@ class MassFinder {
       if (path.closed && path.points.size() > 2) lines_.push_back({path.points.back(), path.points.front(), p});
       if (path.filled && path.closed && path.points.size() > 2 && path.role != LineRole::kAny) fills_.push_back(path.points);
     }
-  }
-
-  // Which edges are steps along arcs, and along which ones. A curve without arcs, as a spline, is one all along.
-  void FindCurves() {
-    std::vector<uint32_t> path_of;
-    std::vector<const Arc*> arcs;
-    std::vector<Eigen::AlignedBox2d> boxes;
-    for (const uint32_t p : paths_) {
-      for (const Arc& arc : drawing_.paths[p].arcs) {
-        const Eigen::Vector2d reach = Eigen::Vector2d::Constant(arc.radius_m + kOnArc_m);
-        boxes.emplace_back(arc.center - reach, arc.center + reach);
-        out_.circles.push_back({arc.center, arc.radius_m});
-        arcs.push_back(&arc);
-        path_of.push_back(p);
-      }
-    }
-    const BoxTree<2> tree(std::move(boxes));
-    for (const LineMap::Edge& e : Map().edges()) {
-      const Eigen::Vector2d &a = Map().vertices()[e.a], &b = Map().vertices()[e.b];
-      uint32_t circle = kNone;
-      tree.ForEachIn(Eigen::AlignedBox2d(0.5 * (a + b)), [&](uint32_t i) {
-        if (i < circle && path_of[i] == e.source && IsStepAlong(*arcs[i], a, b)) circle = i;
-      });
-      const bool curve = e.source < drawing_.paths.size() && drawing_.paths[e.source].curved && drawing_.paths[e.source].arcs.empty();
-      out_.circle_of.push_back(circle);
-      out_.is_curved.push_back(circle != kNone || curve);
-    }
-  }
-
-  static bool IsStepAlong(const Arc& arc, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-    const auto is_on = [&](const Eigen::Vector2d& p) { return std::abs((p - arc.center).norm() - arc.radius_m) < kOnArc_m; };
-    const Eigen::Vector2d out = 0.5 * (a + b) - arc.center;
-    if (!is_on(a) || !is_on(b) || std::abs(out.dot(b - a)) > kAcross * out.norm() * (b - a).norm()) return false;
-    const double middle_rad = arc.start_rad + 0.5 * arc.sweep_rad, at_rad = std::atan2(out.y(), out.x());
-    return std::abs(std::remainder(at_rad - middle_rad, 2 * std::numbers::pi)) <= 0.5 * std::abs(arc.sweep_rad) + kOnArc_m / arc.radius_m;
   }
 
   bool Build() {

@@ -17,6 +17,8 @@ namespace {
 constexpr double kOff_m = 1e-3;
 constexpr double kSliver_m = 0.02;  // leftovers thinner than this are rounding
 constexpr double kMinLeftover_m2 = 1e-3;
+constexpr double kInLine = 0.96;        // cosine between openings in one wall
+constexpr double kFrame_m = 0.2;        // a door frame's width and a bit
 constexpr double kSwingShare = 0.25;    // of a line's length, for it to be the swing of a leaf
 constexpr double kSymbolDepth_m = 0.04;  // of a door leaf in its opening
 
@@ -114,16 +116,28 @@ class StoreyBuilder {
     if (others.size() == wall_paths_.size() || others.empty()) return true;
     const std::optional<WallMass> mass = FindWallMass(drawing_, others, options_.mass);
     if (!mass) return false;
-    const size_t known = openings_.size();
+    std::vector<DrawnOpening> behind;
     for (DrawnOpening& o : FindOpenings(drawing_, symbols_, Outline(*mass), options_.openings)) {
-      const bool is_known = std::any_of(openings_.begin(), openings_.begin() + static_cast<std::ptrdiff_t>(known), [&](const DrawnOpening& k) {
+      const bool is_known = std::any_of(openings_.begin(), openings_.end(), [&](const DrawnOpening& k) {
         return (k.middle() - o.middle()).norm() < 0.5 * std::max(k.width_m(), o.width_m());
       });
       if (is_known || !outline.InWall(o.middle())) continue;
+      std::erase_if(openings_, [&](const DrawnOpening& k) { return IsPieceBeside(k, o); });
       o.in_wall = true;
-      openings_.push_back(std::move(o));
+      behind.push_back(std::move(o));
     }
+    std::move(behind.begin(), behind.end(), std::back_inserter(openings_));
     return true;
+  }
+
+  // Known by its frames alone, one of which is that of a doorway beside it: the piece of wall from there to the next frame.
+  static bool IsPieceBeside(const DrawnOpening& known, const DrawnOpening& doorway) {
+    if (known.path != kNone || !known.in_wall || doorway.in_wall || known.width_m() <= doorway.width_m()) return false;
+    if (std::abs(known.along().dot(doorway.along())) < kInLine) return false;
+    for (const Eigen::Vector2d& p : {known.from, known.to}) {
+      if ((p - doorway.from).norm() < kFrame_m || (p - doorway.to).norm() < kFrame_m) return true;
+    }
+    return false;
   }
 
   const SourceLocation& LocationOf(uint32_t path) const {

@@ -9,6 +9,7 @@
 #include <numeric>
 #include <set>
 
+#include "compiler/geometry/box_tree.h"
 #include "compiler/passes/face_locator.h"
 #include "compiler/passes/polygon.h"
 
@@ -45,9 +46,13 @@ std::vector<Corner> CornersOf(const Floor& floor) {
 class Cover {
  public:
   explicit Cover(const Floor& floor) {
+    std::vector<Eigen::AlignedBox2d> boxes;
     for (const Footprint& f : floor.footprints) {
-      if (f.bounds_rooms) entries_.push_back({&f.rings, BoundingBox(f.rings)});
+      if (!f.bounds_rooms) continue;
+      rings_.push_back(&f.rings);
+      boxes.push_back(BoundingBox(f.rings));
     }
+    tree_ = BoxTree<2>(std::move(boxes));
   }
   bool IsFree(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
     const std::array<double, 3> places = {0.05, 0.5, 0.95};
@@ -56,15 +61,13 @@ class Cover {
 
  private:
   bool Holds(const Eigen::Vector2d& p) const {
-    return std::any_of(entries_.begin(), entries_.end(),
-                       [&](const Entry& e) { return e.box.contains(p) && WindingNumber(*e.rings, p) != 0; });
+    bool held = false;
+    tree_.ForEachIn(Eigen::AlignedBox2d(p), [&](uint32_t i) { held = held || WindingNumber(*rings_[i], p) != 0; });
+    return held;
   }
 
-  struct Entry {
-    const std::vector<Ring>* rings;
-    Eigen::AlignedBox2d box;
-  };
-  std::vector<Entry> entries_;
+  std::vector<const std::vector<Ring>*> rings_;
+  BoxTree<2> tree_;
 };
 
 // Free faces as nodes: those wider than the gap are places, the slivers within gaps hang together over bridges.
@@ -138,18 +141,20 @@ std::vector<Bridge> FindBridges(const Floor& floor, double min_gap_m, double max
   const std::vector<Corner> corners = CornersOf(floor);
   const Cover cover(floor);
   std::map<std::pair<uint32_t, uint32_t>, std::pair<double, Bridge>> nearest;  // by corner and outline
+  std::vector<Eigen::AlignedBox2d> places;
+  for (const Corner& corner : corners) places.emplace_back(corner.at);
+  const BoxTree<2> tree(std::move(places));
+  const Eigen::Vector2d reach = Eigen::Vector2d::Constant(max_gap_m);
   for (const Corner& edge : corners) {
-    const auto [lo, hi] = std::minmax(edge.at.x(), edge.next.x());
-    auto it = std::lower_bound(corners.begin(), corners.end(), lo - max_gap_m, [](const Corner& c, double x) { return c.at.x() < x; });
-    for (; it != corners.end() && it->at.x() <= hi + max_gap_m; ++it) {
-      if (it->ring == edge.ring) continue;
-      const Eigen::Vector2d q = NearestOnSegment(it->at, edge.at, edge.next);
-      const double gap = (q - it->at).norm();
-      if (gap > max_gap_m) continue;
-      const auto [known, fresh] = nearest.try_emplace({static_cast<uint32_t>(it - corners.begin()), edge.ring});
-      if (!fresh && known->second.first <= gap) continue;
-      known->second = {gap, {it->at, q, it->footprint, edge.footprint}};
-    }
+    tree.ForEachIn({edge.at.cwiseMin(edge.next) - reach, edge.at.cwiseMax(edge.next) + reach}, [&](uint32_t c) {
+      if (corners[c].ring == edge.ring) return;
+      const Eigen::Vector2d q = NearestOnSegment(corners[c].at, edge.at, edge.next);
+      const double gap = (q - corners[c].at).norm();
+      if (gap > max_gap_m) return;
+      const auto [known, fresh] = nearest.try_emplace({c, edge.ring});
+      if (!fresh && known->second.first <= gap) return;
+      known->second = {gap, {corners[c].at, q, corners[c].footprint, edge.footprint}};
+    });
   }
   std::vector<Bridge> out;
   for (const auto& [key, entry] : nearest) {

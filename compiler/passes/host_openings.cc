@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <set>
 
@@ -271,7 +272,23 @@ class Host {
     out.center = 0.5 * (box[0] + box[2]);
   }
 
+  // Of the wall's arc at p; none: the wall is straight there.
+  std::optional<Eigen::Vector2d> TangentAt(uint32_t w, const Eigen::Vector2d& p) const {
+    double best_m = graph_.walls[w].thickness_m + options_.max_host_distance_m;
+    std::optional<Eigen::Vector2d> best;
+    for (const Arc& arc : floors_.walls[w].arcs) {
+      const Eigen::Vector2d out = p - arc.center;
+      const double off_rad = std::remainder(std::atan2(out.y(), out.x()) - arc.start_rad - 0.5 * arc.sweep_rad, 2 * std::numbers::pi);
+      const double distance = std::abs(out.norm() - arc.radius_m);
+      if (std::abs(off_rad) > 0.5 * std::abs(arc.sweep_rad) || distance >= best_m) continue;
+      best_m = distance;
+      best = Rot90Ccw(out.normalized());
+    }
+    return best;
+  }
+
   Eigen::Vector2d DirectionAt(uint32_t w, const std::vector<Ring>& rings, const Eigen::Vector2d& p) const {
+    if (const std::optional<Eigen::Vector2d> tangent = TangentAt(w, p)) return *tangent;
     const Wall& wall = graph_.walls[w];
     const Eigen::Vector2d axis = wall.axis_end - wall.axis_start;
     const double off_axis = axis.norm() > 0 ? std::abs(Cross(axis.normalized(), p - wall.axis_start)) : 0;

@@ -6,6 +6,11 @@
 #include "compiler/passes/polygon.h"
 
 namespace plumb::compiler {
+namespace {
+
+constexpr double kTouch_m = 1e-4;  // between parts of a wall that lie beside each other, as facets of a curve
+
+}  // namespace
 
 std::optional<Eigen::Vector2d> SideNextTo(const std::vector<Ring>& rings, const Eigen::Vector2d& p) {
   double best_m = std::numeric_limits<double>::infinity();
@@ -51,10 +56,14 @@ std::optional<std::pair<double, double>> SolidInterval(const std::vector<Ring>& 
   int winding = 0;
   double begin = 0;
   const auto distance = [](const std::pair<double, double>& i) { return std::max({0.0, i.first, -i.second}); };
-  for (const auto& [t, step] : crossings) {
-    if (winding == 0) begin = t;
+  for (size_t i = 0; i < crossings.size(); ++i) {
+    const auto& [t, step] = crossings[i];
+    if (winding == 0 && (i == 0 || t > crossings[i - 1].first + kTouch_m)) begin = t;
     winding += step;
-    if (winding == 0 && (!best || distance({begin, t}) < distance(*best))) best = {begin, t};
+    if (winding != 0) continue;
+    // Goes on in the next part of the wall.
+    if (best && best->first == begin) best->second = t;
+    if (!best || distance({begin, t}) < distance(*best)) best = {begin, t};
   }
   return best;
 }

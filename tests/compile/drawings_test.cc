@@ -152,11 +152,11 @@ const test::ByEye kNumbered = {
      -22.2}},
     6,
     5,
-    6,
-    12,
+    4,
+    7,
     "1150 is open to the outside between single lines; 1211B is open to 1211; the shafts 1401A and 1900B are taken for walls; of the stairs 1903 "
-    "and 1904 flights are found; the others without a number are shafts and a light well. The double leaves of 1507 and 1513 to the outside are two "
-    "each; the wall between the two doors of 1201 is taken for one of them; gaps at stairs and beside the door of the screen to 1120 are false"};
+    "and 1904 flights are found; the others without a number are shafts and a light well. The doorway "
+    "at 75.5, -22.2 is found 0.3 m off, those at 70.7, -23.1, at 75.4, -12.1 and at 77.9, -22.2 are not found; gaps at stairs and beside the door of the screen to 1120 are false"};
 
 TEST(NumberedDrawing, HasTheRoomsAndDoorwaysThatAPersonSees) {
   const fs::path path = kData / kNumbered.path;

@@ -1,6 +1,7 @@
 #include "compiler/frontends/drawing/arc_fit.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
@@ -15,6 +16,7 @@ constexpr double kAllCurved = 0.9;  // ... to be all of it
 constexpr double kMinSweep_rad = 0.3;
 constexpr double kTurnsBack_rad = 2.8;
 constexpr size_t kFine = 12;  // steps
+constexpr double kOffArc_m = 0.01;
 
 double TurnAt(std::span<const Eigen::Vector2d> p, size_t i) {
   const Eigen::Vector2d a = p[i] - p[i - 1], b = p[i + 1] - p[i];
@@ -22,15 +24,16 @@ double TurnAt(std::span<const Eigen::Vector2d> p, size_t i) {
 }
 
 // The arc through all of the points, each within a share of the radius of it.
-std::optional<Arc> FitArc(std::span<const Eigen::Vector2d> points, double max_off_share) {
+std::optional<Arc> FitArc(std::span<const Eigen::Vector2d> points, const ArcFitOptions& options) {
   const std::optional<Circle> circle = FitCircle(points);
   if (!circle) return std::nullopt;
   Arc out;
   out.center = circle->center;
   out.radius_m = circle->radius_m;
   if (!(out.radius_m > 0) || !std::isfinite(out.radius_m)) return std::nullopt;
+  const double max_off = std::min(options.max_off, options.max_off_share * out.radius_m);
   for (const auto& p : points) {
-    if (std::abs((p - out.center).norm() - out.radius_m) > max_off_share * out.radius_m) return std::nullopt;
+    if (std::abs((p - out.center).norm() - out.radius_m) > max_off) return std::nullopt;
   }
   const Eigen::Vector2d start = points[0] - out.center;
   out.start_rad = std::atan2(start.y(), start.x());
@@ -70,16 +73,31 @@ void AddPart(const DrawnPath& path, size_t first, size_t last, const Arc* arc, s
   out.push_back(std::move(part));
 }
 
+// All the way round from its sharpest corner, so that no arc is begun in its middle.
+std::vector<Eigen::Vector2d> RingFromCorner(const std::vector<Eigen::Vector2d>& closed) {
+  const size_t n = closed.size();
+  size_t sharpest = 0;
+  double most_rad = -1;
+  for (size_t i = 0; i < n; ++i) {
+    const std::array<Eigen::Vector2d, 3> here = {closed[(i + n - 1) % n], closed[i], closed[(i + 1) % n]};
+    if (const double turn_rad = std::abs(TurnAt(here, 1)); turn_rad > most_rad + 1e-6) most_rad = turn_rad, sharpest = i;
+  }
+  std::vector<Eigen::Vector2d> out = closed;
+  std::rotate(out.begin(), out.begin() + static_cast<std::ptrdiff_t>(sharpest), out.end());
+  out.push_back(out.front());
+  return out;
+}
+
 // Between two points of the line.
 void AddRunsBetween(std::span<const Eigen::Vector2d> points, size_t begin, size_t end, const ArcFitOptions& options, std::vector<ArcRun>& out) {
   // Coordinates of few digits make the steps of a fine line turn to and fro: all of it may be an arc all the same.
   if (end - begin >= kFine) {
-    if (const auto arc = FitArc(points.subspan(begin, end - begin + 1), options.max_off_share)) return out.push_back({begin, end, *arc});
+    if (const auto arc = FitArc(points.subspan(begin, end - begin + 1), options)) return out.push_back({begin, end, *arc});
   }
   for (size_t first = begin; first + options.min_steps <= end;) {
     const size_t last = std::min(end, EndOfRun(points, first, options));
     if (last - first >= options.min_steps) {
-      if (const auto arc = FitArc(points.subspan(first, last - first + 1), options.max_off_share)) out.push_back({first, last, *arc});
+      if (const auto arc = FitArc(points.subspan(first, last - first + 1), options)) out.push_back({first, last, *arc});
     }
     first = last;
   }
@@ -127,6 +145,16 @@ std::vector<DrawnPath> SplitAtArcs(DrawnPath path, const ArcFitOptions& options)
   }
   AddPart(path, at, path.points.size() - 1, nullptr, out);
   return out;
+}
+
+void FitArcs(Drawing& drawing) {
+  ArcFitOptions options;
+  options.max_off = kOffArc_m;
+  for (DrawnPath& path : drawing.paths) {
+    const bool may_be_wall = path.role == LineRole::kWall || path.role == LineRole::kColumn || path.role == LineRole::kAny;
+    if (!may_be_wall || !path.arcs.empty() || path.points.size() <= options.min_steps) continue;
+    for (const ArcRun& run : FindArcRuns(path.closed ? RingFromCorner(path.points) : path.points, options)) path.arcs.push_back(run.arc);
+  }
 }
 
 }  // namespace plumb::compiler

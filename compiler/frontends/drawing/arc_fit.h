@@ -1,6 +1,7 @@
 // Arcs in lines that programs export as steps or splines along them.
 #pragma once
 
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -13,6 +14,7 @@ struct ArcFitOptions {
   size_t min_steps = 4;
   double max_step_ratio = 3;   // between the lengths of steps that follow each other
   double max_off_share = 0.04;  // of the radius: a quadratic spline for a quarter of a circle is off by half of that
+  double max_off = std::numeric_limits<double>::infinity();  // ... and no more than this, in the points' unit
 };
 
 struct ArcRun {
@@ -25,5 +27,9 @@ struct ArcRun {
 
 // An open line falls into its arcs and what lies between them; a closed one stays whole and gets its arcs if they are much of it.
 [[nodiscard]] std::vector<DrawnPath> SplitAtArcs(DrawnPath path, const ArcFitOptions& options = {});
+
+// Gives walls, and lines that may be walls, the arcs that their sides step along within a centimetre, where the source has told none. The
+// drawing is in metres.
+void FitArcs(Drawing& drawing);
 
 }  // namespace plumb::compiler

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "compiler/frontends/drawing/arc_fit.h"
 #include "compiler/frontends/drawing/plane.h"
 #include "compiler/frontends/drawing/sheets.h"
 #include "compiler/frontends/drawing/units.h"
@@ -129,6 +130,7 @@ void ScaleDrawing(double metres, Drawing& drawing) {
 bool AppendDrawing(Drawing drawing, const PlanStorey& storey, const DrawingFileOptions& options, PlanIr& plan, DiagnosticSink& sink) {
   MoveToOrigin(drawing, plan, sink);
   MendRoles(drawing);
+  FitArcs(drawing);
   return AppendSheets(std::move(drawing), storey, options, plan, sink);
 }
 

@@ -4,6 +4,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -31,7 +32,8 @@ class LineMap {
     uint32_t source = 0;    // of the first line that runs there
   };
 
-  // Points closer than `join_m` become one, ends that near to a line lie on it. None: the lines cross more than `max_vertices` times.
+  // Points closer than `join_m` become one, ends that near to a line lie on it. None: they end, meet and cross in more than
+  // `max_vertices` places.
   [[nodiscard]] static std::optional<LineMap> Build(std::span<const MapLine> lines, double join_m, size_t max_vertices);
 
   [[nodiscard]] const std::vector<Eigen::Vector2d>& vertices() const { return vertices_; }
@@ -84,15 +86,19 @@ void LineMap::VisitEdges(const Eigen::AlignedBox2d& box, const Visit& visit) con
 
 template <class Keep>
 std::optional<RayHit> LineMap::Cast(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction, double max_m, const Keep& keep) const {
-  Eigen::AlignedBox2d box(origin);
-  box.extend(origin + max_m * direction);
+  // Most rays hit something near: far edges are looked at only where they do not.
+  constexpr double kNear_m = 2, kGrowth = 4;
   std::optional<RayHit> best;
-  VisitEdges(box, [&](uint32_t e) {
-    const std::optional<RayHit> hit = HitEdge(origin, direction, e);
-    if (!hit || hit->t_m > max_m || !keep(e)) return;
-    if (!best || hit->t_m < best->t_m || (hit->t_m == best->t_m && e < best->edge)) best = hit;
-  });
-  return best;
+  for (double reach_m = std::min(kNear_m, max_m);; reach_m = std::min(kGrowth * reach_m, max_m)) {
+    Eigen::AlignedBox2d box(origin);
+    box.extend(origin + reach_m * direction);
+    VisitEdges(box, [&](uint32_t e) {
+      const std::optional<RayHit> hit = HitEdge(origin, direction, e);
+      if (!hit || hit->t_m > reach_m || !keep(e)) return;
+      if (!best || hit->t_m < best->t_m || (hit->t_m == best->t_m && e < best->edge)) best = hit;
+    });
+    if (best || reach_m >= max_m) return best;
+  }
 }
 
 }  // namespace plumb::compiler

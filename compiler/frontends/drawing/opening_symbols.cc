@@ -46,14 +46,14 @@ bool MeetsBox(const Vector2d& a, const Vector2d& b, const Vector2d& half) {
 class EvidenceOfGap {
  public:
   EvidenceOfGap(const DrawnOpening& gap, const OpeningOptions& options)
-      : options_(options), width_m_(gap.width_m()), u_(gap.along()), middle_(gap.middle()) {
+      : options_(options), gap_(gap), width_m_(gap.width_m()) {
     half_ = {0.5 * width_m_ + options.symbol_slack_m, 0.5 * gap.depth_m + options.symbol_slack_m};
   }
 
   [[nodiscard]] double reach_m() const { return half_.norm(); }
 
   void Add(const Vector2d& from, const Vector2d& to, const DrawnPath& path, uint32_t p) {
-    const Vector2d a(u_.dot(from - middle_), Cross(u_, from - middle_)), b(u_.dot(to - middle_), Cross(u_, to - middle_));
+    const Vector2d a = gap_.Local(from), b = gap_.Local(to);
     if (!MeetsBox(a, b, half_)) return;
     const double half_m = 0.5 * width_m_;
     const bool along = std::abs(a.y() - b.y()) < kAlong * std::abs(a.x() - b.x());
@@ -94,7 +94,7 @@ class EvidenceOfGap {
       out_.leaf = std::min(out_.leaf, p);
     // The greater leaf of two that are not alike has its hinge at the jamb, too.
     const bool swing = std::any_of(path.arcs.begin(), path.arcs.end(), [&](const Arc& arc) {
-      const Vector2d hinge(u_.dot(arc.center - middle_), Cross(u_, arc.center - middle_));
+      const Vector2d hinge = gap_.Local(arc.center);
       const double share = arc.radius_m / width_m_;
       const bool at_jamb = std::abs(std::abs(hinge.x()) - half_m) < options_.symbol_slack_m && std::abs(hinge.y()) < half_.y();
       return IsSwing(arc, options_) && (IsLeafOf(share) || (at_jamb && share > 0.5 && share < 1));
@@ -103,8 +103,8 @@ class EvidenceOfGap {
   }
 
   const OpeningOptions& options_;
+  const DrawnOpening& gap_;
   const double width_m_;
-  const Vector2d u_, middle_;
   Vector2d half_;
   SymbolEvidence out_;
   std::vector<Interval> door_, window_, mixed_;

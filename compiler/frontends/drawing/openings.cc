@@ -4,12 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <numbers>
 #include <set>
 
+#include "compiler/frontends/drawing/curved_openings.h"
+#include "compiler/frontends/drawing/door_leaves.h"
 #include "compiler/frontends/drawing/framed_doors.h"
+#include "compiler/frontends/drawing/opening_places.h"
 #include "compiler/frontends/drawing/opening_symbols.h"
+#include "compiler/frontends/drawing/openings_on_walls.h"
 #include "compiler/frontends/drawing/plane.h"
 
 namespace plumb::compiler {
@@ -20,7 +23,7 @@ constexpr double kAgainst = 0.96;    // cosine between sides that face each othe
 constexpr double kSkewEnds = 0.87;   // ... between ends of walls: the two lines of a wall often end askew
 constexpr double kMinEnd_m = 0.03;   // narrower ends are no walls
 constexpr double kBeyond_m = 0.15;   // from the faces of a wall into the rooms beside it
-constexpr double kLeavesMeet_m = 0.1;
+constexpr double kFrame_m = 0.2;  // a frame's width and a bit
 constexpr double kSillShare = 0.85;  // a window's line runs from jamb to jamb
 
 // A gap between two sides of walls, as a rectangle: `from` to `to` and half the depth to both sides.
@@ -30,44 +33,13 @@ struct Gap {
   bool between_ends = false;
 };
 
-// Openings by the squares of the plan that their boxes meet: the ones close to another are found without a look at all.
-class OpeningPlaces {
- public:
-  void Add(const DrawnOpening& o, uint32_t number) {
-    ForEachCell(o, [&](const Cell& cell) { numbers_[cell].push_back(number); });
-  }
-  // Some more than once.
-  template <class Visit>
-  void ForEachNear(const DrawnOpening& o, const Visit& visit) const {
-    ForEachCell(o, [&](const Cell& cell) {
-      if (const auto found = numbers_.find(cell); found != numbers_.end()) std::for_each(found->second.begin(), found->second.end(), visit);
-    });
-  }
-
- private:
-  using Cell = std::pair<int64_t, int64_t>;
-  static constexpr double kCell_m = 4;
-
-  template <class Visit>
-  static void ForEachCell(const DrawnOpening& o, const Visit& visit) {
-    const Eigen::Vector2d low = o.from.cwiseMin(o.to).array() - 0.5 * o.depth_m, high = o.from.cwiseMax(o.to).array() + 0.5 * o.depth_m;
-    const auto cell = [](double at_m) { return static_cast<int64_t>(std::floor(at_m / kCell_m)); };
-    for (int64_t x = cell(low.x()); x <= cell(high.x()); ++x) {
-      for (int64_t y = cell(low.y()); y <= cell(high.y()); ++y) visit(Cell(x, y));
-    }
-  }
-
-  std::map<Cell, std::vector<uint32_t>> numbers_;
-};
-
 class OpeningFinder {
  public:
   OpeningFinder(const Drawing& drawing, const std::vector<uint32_t>& paths, const Outline& outline, const OpeningOptions& options)
-      : drawing_(drawing), paths_(paths), outline_(outline), options_(options), symbols_(drawing, paths, options) {
+      : drawing_(drawing), paths_(paths), outline_(outline), options_(options), curves_(outline, options), symbols_(drawing, paths, options), leaves_(drawing, paths, options) {
     std::vector<Eigen::AlignedBox2d> boxes;
     for (const DrawnSpace& space : drawing.spaces) boxes.push_back(BoxOf(space.outline));
     rooms_ = BoxTree<2>(std::move(boxes));
-    CollectLeaves();
   }
 
   std::vector<DrawnOpening> Run() {
@@ -75,22 +47,27 @@ class OpeningFinder {
     for (const uint32_t p : paths_) {
       if (!symbols_.IsUsed(p)) AddFromSymbol(p);
     }
-    for (DrawnOpening& framed : FindFramedDoors(drawing_, outline_.mass())) {
-      if (!IsKnown(framed) && !IsWithinARoom(framed)) Keep(std::move(framed));
+    JoinLeafPairs();
+    // The narrowest first: between two doors there is a wider piece of wall with a frame at both ends, too.
+    std::vector<DrawnOpening> all_framed = FindFramedDoors(drawing_, outline_.mass());
+    std::stable_sort(all_framed.begin(), all_framed.end(), [](const auto& a, const auto& b) { return a.width_m() < b.width_m(); });
+    for (DrawnOpening& framed : all_framed) {
+      if (!IsKnown(framed) && !IsBetweenDoors(framed) && !IsWithinARoom(framed)) Keep(std::move(framed));
     }
     return std::move(out_);
   }
 
  private:
-  struct Leaf {
-    Eigen::Vector2d hinge, tip;
-  };
-
   // Across the gap in front of an end of a wall.
   std::optional<Gap> GapBefore(uint32_t end) const {
     const Side& s = outline_.sides()[end];
     const double thickness = s.length_m();
     if (s.curved || thickness < kMinEnd_m || thickness > kMaxEnd_m || !outline_.IsEnd(end)) return std::nullopt;
+    if (curves_.IsEndOfCurve(end)) {
+      std::optional<CurvedGap> curved = curves_.GapBefore(end);
+      if (!curved) return std::nullopt;
+      return Gap{std::move(curved->opening), end, curved->far_side, outline_.IsEnd(curved->far_side)};
+    }
     const Eigen::Vector2d out = -Perp(s.along());
     std::optional<SideHit> first;
     for (const double at : {0.5, 0.2, 0.8}) {
@@ -202,62 +179,16 @@ class OpeningFinder {
     return within;
   }
 
-  // Where a closed leaf may stand: from the hinge to an end of its swing.
-  std::vector<Leaf> LeavesOfSwings(uint32_t p) const {
-    std::vector<Leaf> out;
-    for (const Arc& arc : drawing_.paths[p].arcs) {
-      if (!IsSwing(arc, options_)) continue;
-      for (const double at : {arc.start_rad, arc.start_rad + arc.sweep_rad})
-        out.push_back({arc.center, arc.center + arc.radius_m * Eigen::Vector2d(std::cos(at), std::sin(at))});
-    }
-    return out;
-  }
-
-  void CollectLeaves() {
-    std::vector<Eigen::AlignedBox2d> tips;
-    for (const uint32_t p : paths_) {
-      for (const Leaf& leaf : LeavesOfSwings(p)) {
-        leaves_.push_back(leaf);
-        tips.emplace_back(leaf.tip);
-      }
-    }
-    tips_ = BoxTree<2>(std::move(tips));
-  }
-
-  // The hinge of the other of two leaves that meet when closed; none: this one closes its door alone.
-  std::optional<Eigen::Vector2d> HingeOfMate(const Leaf& leaf) const {
-    const Eigen::Vector2d reach = Eigen::Vector2d::Constant(kLeavesMeet_m);
-    uint32_t mate = kNone;
-    tips_.ForEachIn({leaf.tip - reach, leaf.tip + reach}, [&](uint32_t i) {
-      const Eigen::Vector2d d = leaves_[i].tip - leaves_[i].hinge;
-      if (i < mate && d.normalized().dot((leaf.tip - leaf.hinge).normalized()) < -kAgainst) mate = i;
-    });
-    return mate == kNone ? std::nullopt : std::optional(leaves_[mate].hinge);
-  }
-
-  // Those of a swing, two of a pair as one, or along a line.
-  std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> ClosedLeaves(uint32_t p) const {
-    const DrawnPath& path = drawing_.paths[p];
-    std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> out;
-    const std::vector<Leaf> leaves = LeavesOfSwings(p);
-    for (const Leaf& leaf : leaves) {
-      if (const auto other = HingeOfMate(leaf)) out.emplace_back(leaf.hinge, *other);
-    }
-    for (const Leaf& leaf : leaves) out.emplace_back(leaf.hinge, leaf.tip);
-    if (path.arcs.empty() && !path.closed && path.points.size() == 2 && path.role == LineRole::kDoor)
-      out.emplace_back(path.points[0], path.points[1]);
-    return out;
-  }
-
   void AddFromSymbol(uint32_t p) {
     const DrawnPath& path = drawing_.paths[p];
-    for (const auto& [a, b] : ClosedLeaves(p)) {
+    for (const auto& [a, b] : leaves_.Closed(p)) {
       const double width = (b - a).norm();
       if (width < options_.min_width_m || width > options_.max_door_gap_m) continue;
       const double near = options_.symbol_slack_m;
       if (outline_.DistanceTo(a, 2 * near) >= near || outline_.DistanceTo(b, 2 * near) >= near) continue;
-      std::optional<DrawnOpening> o = OverWall(a, b);
-      if (!o && !outline_.InWall(0.5 * (a + b))) o = BetweenWalls(a, b);
+      std::optional<DrawnOpening> o = curves_.Between(a, b);
+      if (!o) o = OpeningOverWall(outline_, a, b);
+      if (!o && !outline_.InWall(0.5 * (a + b))) o = OpeningBetweenWalls(outline_, a, b, options_.symbol_slack_m);
       if (!o) continue;
       o->use = DrawnUse::kDoor;
       o->path = p;
@@ -270,53 +201,75 @@ class OpeningFinder {
     if (path.role == LineRole::kWindow || path.role == LineRole::kDoor || path.role == LineRole::kPassage) AddOverWall(p);
   }
 
-  // The wall goes on behind the symbol.
-  std::optional<DrawnOpening> OverWall(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {
-    const Eigen::Vector2d u = (b - a).normalized(), n = Perp(u), m = 0.5 * (a + b);
-    // Leaves are often drawn right on the wall's face.
-    for (const double off_m : {0.0, kMinEnd_m, -kMinEnd_m}) {
-      const Eigen::Vector2d inside = m + off_m * n;
-      if (!outline_.InWall(inside)) continue;
-      const auto left = outline_.Cast(inside, n, kMaxEnd_m), right = outline_.Cast(inside, -n, kMaxEnd_m);
-      if (!left || !right || left->t_m + right->t_m < kMinEnd_m) continue;
-      if (std::abs(outline_.sides()[left->side].along().dot(u)) < kAgainst) continue;
-      DrawnOpening out;
-      const Eigen::Vector2d shift = (off_m + 0.5 * (left->t_m - right->t_m)) * n;
-      out.from = a + shift;
-      out.to = b + shift;
-      out.depth_m = left->t_m + right->t_m;
-      out.in_wall = true;
-      return out;
-    }
-    return std::nullopt;
+  // Its frame is that of a door beside it: the piece of wall from there to the next frame.
+  bool IsBetweenDoors(const DrawnOpening& framed) const {
+    bool shared = false;
+    places_.ForEachNear(framed, [&](uint32_t k) {
+      const DrawnOpening& o = out_[k];
+      if (o.use == DrawnUse::kWindow || std::abs(o.along().dot(framed.along())) < kAgainst) return;
+      for (const Eigen::Vector2d& p : {o.from, o.to}) {
+        for (const Eigen::Vector2d& q : {framed.from, framed.to}) shared = shared || (p - q).norm() < kFrame_m;
+      }
+    });
+    return shared;
   }
 
-  // A door between walls that have no ends there: across a corridor.
-  std::optional<DrawnOpening> BetweenWalls(const Eigen::Vector2d& a, const Eigen::Vector2d& b) const {
-    const Eigen::Vector2d u = (b - a).normalized(), m = 0.5 * (a + b);
-    const double reach = 0.5 * (b - a).norm() + 2 * options_.symbol_slack_m;
-    const auto ahead = outline_.Cast(m, u, reach), back = outline_.Cast(m, -u, reach);
-    if (!ahead || !back) return std::nullopt;
-    DrawnOpening out;
-    out.from = m - back->t_m * u;
-    out.to = m + ahead->t_m * u;
-    out.depth_m = std::clamp(outline_.mass().typical_thickness_m, 0.05, 0.2);
-    return out;
+  // Two leaves that meet when closed are one doorway, also where something narrow stands between them.
+  void JoinLeafPairs() {
+    std::vector<bool> joined(out_.size(), false);
+    for (const DoorLeaf& leaf : leaves_.all()) {
+      const std::optional<Eigen::Vector2d> mate = leaves_.HingeOfMate(leaf);
+      const uint32_t a = mate ? DoorFrom(leaf.hinge, leaf.tip) : kNone, b = mate ? DoorFrom(*mate, leaf.tip) : kNone;
+      if (a == kNone || b == kNone || a == b || joined[a] || joined[b]) continue;
+      DrawnOpening &first = out_[std::min(a, b)], &second = out_[std::max(a, b)];
+      const Eigen::Vector2d u = first.along();
+      if (std::abs(u.dot(second.along())) < kAgainst || std::abs(Cross(u, second.middle() - first.middle())) > 0.5 * first.depth_m) continue;
+      for (const Eigen::Vector2d& p : {second.from, second.to}) {
+        const double s = u.dot(p - first.from);
+        if (s < 0) first.from += s * u;
+        if (s > first.width_m()) first.to = first.from + s * u;
+      }
+      first.in_wall = first.in_wall && second.in_wall;
+      joined[std::max(a, b)] = true;
+    }
+    std::vector<DrawnOpening> kept;
+    for (size_t i = 0; i < out_.size(); ++i) {
+      if (!joined[i]) kept.push_back(std::move(out_[i]));
+    }
+    out_.clear();
+    places_ = {};
+    for (DrawnOpening& o : kept) Keep(std::move(o));
+  }
+
+  // The straight door that a closed leaf fills.
+  uint32_t DoorFrom(const Eigen::Vector2d& hinge, const Eigen::Vector2d& tip) const {
+    const double near_m = options_.symbol_slack_m;
+    const auto at = [&](const Eigen::Vector2d& p, const Eigen::Vector2d& q) { return (p - q).norm() < near_m + kLeavesMeet_m; };
+    DrawnOpening closed;
+    closed.from = hinge;
+    closed.to = tip;
+    uint32_t best = kNone;
+    places_.ForEachNear(closed, [&](uint32_t i) {
+      const DrawnOpening& o = out_[i];
+      if (o.use != DrawnUse::kDoor || o.curve) return;
+      if ((at(o.from, hinge) && at(o.to, tip)) || (at(o.to, hinge) && at(o.from, tip))) best = std::min(best, i);
+    });
+    return best;
   }
 
   // The paths of its symbol that can lie in the wall: boxes if there are any, as swings and open leaves stand out of it.
   std::vector<uint32_t> InWallPartsOf(uint32_t p) const {
     std::vector<uint32_t> boxes;
     for (const uint32_t q : symbols_.PathsWith(p)) {
-      if (drawing_.paths[q].closed && drawing_.paths[q].arcs.empty()) boxes.push_back(q);
+      const auto& arcs = drawing_.paths[q].arcs;
+      const bool swings = std::any_of(arcs.begin(), arcs.end(), [&](const Arc& arc) { return IsSwing(arc, options_); });
+      if (drawing_.paths[q].closed && !swings) boxes.push_back(q);
     }
     return boxes.empty() ? symbols_.PathsWith(p) : boxes;
   }
 
-  // A window or a door without a swing whose box lies over a wall; its paths are looked at together.
-  void AddOverWall(uint32_t p) {
-    const DrawnPath& path = drawing_.paths[p];
-    const std::vector<uint32_t> members = InWallPartsOf(p);
+  // The box around the paths, along the longest line among them, if it lies over a wall.
+  std::optional<DrawnOpening> OfBox(const std::vector<uint32_t>& members) const {
     Eigen::AlignedBox2d box;
     Eigen::Vector2d u = Eigen::Vector2d::Zero();
     for (const uint32_t q : members) {
@@ -326,16 +279,26 @@ class OpeningFinder {
         if (d.norm() > u.norm()) u = d;
       }
     }
-    if (u.norm() < options_.min_width_m) return;
+    if (u.norm() < options_.min_width_m) return std::nullopt;
     u.normalize();
     for (const uint32_t q : members) {
       for (const auto& point : drawing_.paths[q].points) box.extend(Eigen::Vector2d(u.dot(point), Cross(u, point)));
     }
     const Eigen::Vector2d c = box.center(), m = c.x() * u + c.y() * Perp(u);
     const double half = 0.5 * box.sizes().x();
-    if (box.sizes().y() > kMaxEnd_m || !outline_.InWall(m)) return;
-    std::optional<DrawnOpening> o = OverWall(m - half * u, m + half * u);
-    if (!o || o->width_m() > options_.max_window_gap_m) return;
+    if (box.sizes().y() > kMaxEnd_m || !outline_.InWall(m)) return std::nullopt;
+    return OpeningOverWall(outline_, m - half * u, m + half * u);
+  }
+
+  // A window or a door without a swing that lies over a wall; its paths are looked at together.
+  void AddOverWall(uint32_t p) {
+    const DrawnPath& path = drawing_.paths[p];
+    const std::vector<uint32_t> members = InWallPartsOf(p);
+    std::vector<Eigen::Vector2d> points;
+    for (const uint32_t q : members) points.insert(points.end(), drawing_.paths[q].points.begin(), drawing_.paths[q].points.end());
+    std::optional<DrawnOpening> o = curves_.Along(points);
+    if (!o) o = OfBox(members);
+    if (!o || o->width_m() < options_.min_width_m || o->width_m() > options_.max_window_gap_m) return;
     o->use = path.role == LineRole::kDoor ? DrawnUse::kDoor : path.role == LineRole::kWindow ? DrawnUse::kWindow : DrawnUse::kPassage;
     o->path = p;
     o->location = path.location;
@@ -348,12 +311,12 @@ class OpeningFinder {
   const std::vector<uint32_t>& paths_;  // of doors and windows
   const Outline& outline_;
   const OpeningOptions& options_;
+  const CurvedOpenings curves_;
   OpeningSymbols symbols_;
   std::set<uint32_t> jambs_;  // sides at the ends of openings
   std::vector<DrawnOpening> out_;
   OpeningPlaces places_;  // of out_
-  std::vector<Leaf> leaves_;
-  BoxTree<2> tips_;       // of leaves_
+  const DoorLeaves leaves_;
   BoxTree<2> rooms_;      // as the drawing outlines them
 };
 
@@ -363,6 +326,19 @@ std::string OpeningOptions::Check() const {
   if (!(min_width_m > 0)) return fmt::format("OpeningOptions.min_width_m = {}; must be positive", min_width_m);
   if (!(max_bare_gap_m >= 0)) return fmt::format("OpeningOptions.max_bare_gap_m = {}; must not be negative", max_bare_gap_m);
   return {};
+}
+
+Eigen::Vector2d DrawnOpening::middle() const {
+  const Eigen::Vector2d chord = 0.5 * (from + to);
+  return curve ? PointAt(*curve, AngleAt(*curve, chord)) : chord;
+}
+
+Eigen::Vector2d DrawnOpening::Local(const Eigen::Vector2d& p) const {
+  const Eigen::Vector2d offset = p - middle();
+  if (!curve) return {along().dot(offset), Cross(along(), offset)};
+  const double turn = Cross(from - curve->center, to - curve->center) > 0 ? 1 : -1;  // the centre is on the left if it is 1
+  const double angle_rad = Nearest(AngleAt(*curve, p), AngleAt(*curve, middle())) - AngleAt(*curve, middle());
+  return {turn * angle_rad * curve->radius_m, turn * (curve->radius_m - (p - curve->center).norm())};
 }
 
 bool IsSwing(const Arc& arc, const OpeningOptions& options) {

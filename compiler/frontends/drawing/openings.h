@@ -1,11 +1,13 @@
 // Doors, windows and passages in drawn walls: gaps between walls' ends, and the symbols that stand in them or over walls.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "compiler/frontends/drawing/drawing.h"
 #include "compiler/frontends/drawing/outline.h"
+#include "compiler/geometry/circle.h"
 
 namespace plumb::compiler {
 
@@ -15,12 +17,15 @@ struct DrawnOpening {
   DrawnUse use = DrawnUse::kPassage;
   Eigen::Vector2d from = Eigen::Vector2d::Zero(), to = Eigen::Vector2d::Zero();  // jambs, on the middle of the wall
   double depth_m = 0;       // the wall's thickness there
+  std::optional<Circle> curve;  // the middle of the wall, where that is curved: both jambs are on it
   bool in_wall = false;     // drawn over a wall that goes on; else in a gap
   uint32_t path = 0xffffffffu;  // of the symbol; none: a gap alone
   SourceLocation location;
-  [[nodiscard]] double width_m() const { return (to - from).norm(); }
-  [[nodiscard]] Eigen::Vector2d middle() const { return 0.5 * (from + to); }
+  [[nodiscard]] double width_m() const { return (to - from).norm(); }  // of the chord, where the wall is curved
+  [[nodiscard]] Eigen::Vector2d middle() const;                         // on the middle of the wall
   [[nodiscard]] Eigen::Vector2d along() const { return (to - from).normalized(); }
+  // Along the wall from the opening's middle, and across it to the left: straight, or around the curve's centre.
+  [[nodiscard]] Eigen::Vector2d Local(const Eigen::Vector2d& p) const;
 };
 
 struct OpeningOptions {

@@ -35,6 +35,8 @@ void Outline::AddLoop(const std::vector<uint32_t>& loop) {
   const LineMap& map = mass_.map;
   const auto goes_on = [&](uint32_t h, uint32_t next) {
     const Eigen::Vector2d d = (map.ToPoint(h) - map.FromPoint(h)).normalized(), e = (map.ToPoint(next) - map.FromPoint(next)).normalized();
+    // Steps along an arc stay apart, however fine they are.
+    if (mass_.circle_of[h / 2] != kNone || mass_.circle_of[next / 2] != kNone) return false;
     return d.dot(e) > 0 && std::abs(Cross(d, e)) < kStraight && mass_.is_curved[h / 2] == mass_.is_curved[next / 2];
   };
   size_t first = 0;
@@ -48,6 +50,7 @@ void Outline::AddLoop(const std::vector<uint32_t>& loop) {
       side.a = map.FromPoint(h);
       side.source = map.edges()[h / 2].source;
       side.curved = mass_.is_curved[h / 2];
+      side.circle = mass_.circle_of[h / 2];
       sides_.push_back(side);
     }
     sides_.back().b = map.ToPoint(h);

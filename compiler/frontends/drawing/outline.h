@@ -14,6 +14,7 @@ struct Side {
   uint32_t source = 0;        // path of its first edge
   uint32_t prev = 0, next = 0;  // sides around the same piece of material
   bool curved = false;        // a step along a curve
+  uint32_t circle = 0xffffffffu;  // ... along an arc: in the mass's circles
   [[nodiscard]] double length_m() const { return (b - a).norm(); }
   [[nodiscard]] Eigen::Vector2d along() const { return (b - a).normalized(); }
   [[nodiscard]] Eigen::Vector2d middle() const { return 0.5 * (a + b); }

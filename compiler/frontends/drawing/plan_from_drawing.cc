@@ -17,6 +17,9 @@ namespace {
 constexpr double kOff_m = 1e-3;
 constexpr double kSliver_m = 0.02;  // leftovers thinner than this are rounding
 constexpr double kMinLeftover_m2 = 1e-3;
+constexpr double kInLine = 0.96;        // cosine between openings in one wall
+constexpr double kFrame_m = 0.2;        // a door frame's width and a bit
+constexpr double kSwingShare = 0.25;    // of a line's length, for it to be the swing of a leaf
 constexpr double kSymbolDepth_m = 0.04;  // of a door leaf in its opening
 
 Solid Prism(const std::vector<Eigen::Vector2d>& ring, double bottom_m, double top_m) {
@@ -55,7 +58,7 @@ class StoreyBuilder {
  private:
   bool Fail() {
     sink_.Emit(DiagnosticKind::kPlanTooComplex, {},
-               fmt::format("the drawing's lines cross more than {} times", options_.mass.max_vertices));
+               fmt::format("the drawing's lines end, meet and cross in more than {} places", options_.mass.max_vertices));
     return false;
   }
 
@@ -64,7 +67,7 @@ class StoreyBuilder {
     std::vector<const Arc*> swings;
     for (const DrawnPath& path : drawing_.paths) {
       for (const Arc& arc : path.arcs) {
-        if (path.role == LineRole::kAny && IsSwing(arc, options_.openings)) swings.push_back(&arc);
+        if (path.role == LineRole::kAny && IsSwing(arc, options_.openings) && IsMostly(arc, path)) swings.push_back(&arc);
       }
     }
     std::vector<Eigen::AlignedBox2d> hinges;
@@ -73,12 +76,20 @@ class StoreyBuilder {
     for (uint32_t p = 0; p < drawing_.paths.size(); ++p) {
       const DrawnPath& path = drawing_.paths[p];
       const bool wall = path.role == LineRole::kWall || path.role == LineRole::kColumn;
-      const bool swing = std::any_of(path.arcs.begin(), path.arcs.end(), [&](const Arc& a) { return IsSwing(a, options_.openings); });
+      const bool swing = std::any_of(path.arcs.begin(), path.arcs.end(),
+                                     [&](const Arc& a) { return IsSwing(a, options_.openings) && IsMostly(a, path); });
       if (wall || (path.role == LineRole::kAny && !swing && !IsLeaf(path, swings, tree)))
         wall_paths_.push_back(p);
       else
         symbols_.push_back(p);
     }
+  }
+
+  // The rest of a swing's line is at most its leaf; a rounded corner is little of a wall's outline.
+  static bool IsMostly(const Arc& arc, const DrawnPath& path) {
+    double length_m = path.closed ? (path.points.back() - path.points.front()).norm() : 0;
+    for (size_t i = 0; i + 1 < path.points.size(); ++i) length_m += (path.points[i + 1] - path.points[i]).norm();
+    return std::abs(arc.sweep_rad) * arc.radius_m > kSwingShare * length_m;
   }
 
   // A line or a thin box from the hinge, as long as the swing's radius.
@@ -105,16 +116,28 @@ class StoreyBuilder {
     if (others.size() == wall_paths_.size() || others.empty()) return true;
     const std::optional<WallMass> mass = FindWallMass(drawing_, others, options_.mass);
     if (!mass) return false;
-    const size_t known = openings_.size();
+    std::vector<DrawnOpening> behind;
     for (DrawnOpening& o : FindOpenings(drawing_, symbols_, Outline(*mass), options_.openings)) {
-      const bool is_known = std::any_of(openings_.begin(), openings_.begin() + static_cast<std::ptrdiff_t>(known), [&](const DrawnOpening& k) {
+      const bool is_known = std::any_of(openings_.begin(), openings_.end(), [&](const DrawnOpening& k) {
         return (k.middle() - o.middle()).norm() < 0.5 * std::max(k.width_m(), o.width_m());
       });
       if (is_known || !outline.InWall(o.middle())) continue;
+      std::erase_if(openings_, [&](const DrawnOpening& k) { return IsPieceBeside(k, o); });
       o.in_wall = true;
-      openings_.push_back(std::move(o));
+      behind.push_back(std::move(o));
     }
+    std::move(behind.begin(), behind.end(), std::back_inserter(openings_));
     return true;
+  }
+
+  // Known by its frames alone, one of which is that of a doorway beside it: the piece of wall from there to the next frame.
+  static bool IsPieceBeside(const DrawnOpening& known, const DrawnOpening& doorway) {
+    if (known.path != kNone || !known.in_wall || doorway.in_wall || known.width_m() <= doorway.width_m()) return false;
+    if (std::abs(known.along().dot(doorway.along())) < kInLine) return false;
+    for (const Eigen::Vector2d& p : {known.from, known.to}) {
+      if ((p - doorway.from).norm() < kFrame_m || (p - doorway.to).norm() < kFrame_m) return true;
+    }
+    return false;
   }
 
   const SourceLocation& LocationOf(uint32_t path) const {
@@ -154,8 +177,9 @@ class StoreyBuilder {
     PlanElement wall = NewElement(ElementKind::kWall, LocationOf(run.source));
     wall.uncut = Prism(run.Corners(), base_m_, top_m_);
     wall.thickness_m = run.thickness_m();
+    wall.arcs = run.Arcs();
     const double middle = 0.5 * (run.left_m + run.right_m);
-    wall.axis = std::make_pair(run.At(run.start_m, middle), run.At(run.end_m, middle));
+    if (!run.curve) wall.axis = std::make_pair(run.At(run.start_m, middle), run.At(run.end_m, middle));
     std::sort(run.openings.begin(), run.openings.end(),
               [&](uint32_t a, uint32_t b) { return run.S(openings_[a].middle()) < run.S(openings_[b].middle()); });
     double at = run.start_m;
@@ -192,7 +216,7 @@ class StoreyBuilder {
     PlanOpening opening;
     opening.location = drawn.location;
     opening.wall = wall;
-    opening.width_m = to - from;
+    opening.width_m = (run.At(to, 0) - run.At(from, 0)).norm();
     opening.height_m = head - sill;
     opening.body = Prism(run.Part(from, to), sill, head);
     if (drawn.use != DrawnUse::kPassage) {
@@ -200,8 +224,7 @@ class StoreyBuilder {
       if (drawn.use == DrawnUse::kWindow) {
         filling.material = Material::kGlass;
         const double middle = 0.5 * (run.left_m + run.right_m), half = 0.5 * kSymbolDepth_m;
-        filling.body = Prism(
-            {run.At(from, middle - half), run.At(to, middle - half), run.At(to, middle + half), run.At(from, middle + half)}, sill, head);
+        filling.body = Prism(run.Layer(from, to, middle - half, middle + half), sill, head);
       }
       opening.filling = static_cast<uint32_t>(plan_.elements.size());
       plan_.elements.push_back(std::move(filling));
@@ -218,7 +241,7 @@ class StoreyBuilder {
     std::vector<Eigen::AlignedBox2d> boxes;
     for (const WallRun& run : runs_) {
       const auto corners = run.Corners();
-      for (size_t k = 0; k < 4; ++k) lines.push_back({corners[k], corners[(k + 1) % 4], run.source});
+      for (size_t k = 0; k < corners.size(); ++k) lines.push_back({corners[k], corners[(k + 1) % corners.size()], run.source});
       boxes.push_back(BoxOf(corners));
     }
     const std::optional<LineMap> map = LineMap::Build(lines, options_.mass.join_m, options_.mass.max_vertices);

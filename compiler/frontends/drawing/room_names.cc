@@ -6,6 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "compiler/frontends/drawing/drawing_notes.h"
+
 namespace plumb::compiler {
 namespace {
 
@@ -51,7 +53,9 @@ void KeepIfAny(std::vector<const DrawnText*>& texts, const Good& good) {
 }  // namespace
 
 std::string RoomName(std::vector<const DrawnText*> texts) {
-  std::erase_if(texts, [](const DrawnText* t) { return t->text.empty() || t->text.size() > kMaxName || IsMeasure(t->text); });
+  std::erase_if(texts, [](const DrawnText* t) { return t->text.empty() || t->text.size() > kMaxName || IsMeasure(t->text) || IsNote(t->text); });
+  if (std::none_of(texts.begin(), texts.end(), [](const DrawnText* t) { return t->names_room; }))
+    std::erase_if(texts, [](const DrawnText* t) { return t->text == "N"; });  // the north arrow's
   // Several numbers are sizes of doors and windows; one is the room's.
   const auto is_number = [](const DrawnText* t) { return std::none_of(t->text.begin(), t->text.end(), IsLetter); };
   if (std::count_if(texts.begin(), texts.end(), is_number) > 1) std::erase_if(texts, is_number);

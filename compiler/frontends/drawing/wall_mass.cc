@@ -8,6 +8,7 @@
 #include <limits>
 #include <set>
 
+#include "compiler/frontends/drawing/curve_edges.h"
 #include "compiler/frontends/drawing/plane.h"
 #include "compiler/geometry/box_tree.h"
 
@@ -58,7 +59,7 @@ class MassFinder {
       out_.single_lines = true;
       out_.single_m = single_m;
     }
-    for (const LineMap::Edge& e : Map().edges()) out_.is_curved.push_back(e.source < drawing_.paths.size() && drawing_.paths[e.source].curved);
+    FindCurves(drawing_, paths_, out_);
     return std::move(out_);
   }
 

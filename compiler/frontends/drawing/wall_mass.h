@@ -7,6 +7,7 @@
 
 #include "compiler/frontends/drawing/drawing.h"
 #include "compiler/frontends/drawing/line_map.h"
+#include "compiler/geometry/circle.h"
 
 namespace plumb::compiler {
 
@@ -29,6 +30,8 @@ struct WallMass {
   LineMap map;
   std::vector<bool> is_wall;     // by face
   std::vector<bool> is_curved;   // by edge: a step along a curve
+  std::vector<uint32_t> circle_of;  // by edge: in `circles`, where it is a step along an arc; else 0xffffffff
+  std::vector<Circle> circles;
   double typical_thickness_m = 0;  // 0: no face is a wall
   double single_m = 0;           // length of lines that have no partner
   bool single_lines = false;     // they were given a thickness

@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "compiler/frontends/drawing/plane.h"
+#include "compiler/frontends/drawing/round_runs.h"
 
 namespace plumb::compiler {
 namespace {
@@ -34,6 +35,8 @@ class RunFinder {
     // Longer walls take the corners.
     std::stable_sort(runs.begin(), runs.end(),
                      [](const WallRun& a, const WallRun& b) { return a.end_m - a.start_m > b.end_m - b.start_m; });
+    std::vector<WallRun> round = FindRoundRuns(outline_, openings_, options_);
+    std::move(round.begin(), round.end(), std::back_inserter(runs));
     ExtendIntoCorners(runs);
     AssignOpenings(runs);
     return runs;
@@ -103,7 +106,7 @@ class RunFinder {
       });
     }
     for (const DrawnOpening& o : openings_) {
-      if (o.in_wall) continue;
+      if (o.in_wall || o.curve) continue;
       const Eigen::Vector2d slack = Eigen::Vector2d::Constant(kJunction * options_.max_thickness_m);
       Eigen::AlignedBox2d at_from(o.from - slack, o.from + slack), at_to(o.to - slack, o.to + slack);
       tree.ForEachIn(at_from, [&](uint32_t i) {
@@ -177,7 +180,7 @@ class RunFinder {
       boxes.emplace_back(box.min() - reach, box.max() + reach);
     }
     const BoxTree<2> tree(std::move(boxes));
-    for (size_t i = 0; i < runs.size(); ++i) {
+    for (size_t i = 0; i < runs.size() && !runs[i].curve; ++i) {
       for (const bool at_end : {true, false}) {
         WallRun& run = runs[i];
         const double s = at_end ? run.end_m : run.start_m, sign = at_end ? 1 : -1;
@@ -188,25 +191,43 @@ class RunFinder {
         const double reach = hit->t_m + kOff_m;
         const Eigen::Vector2d middle = run.At(s + sign * 0.5 * reach, 0.5 * (run.left_m + run.right_m));
         bool taken = false;
-        tree.ForEachIn(Eigen::AlignedBox2d(middle), [&](uint32_t j) { taken = taken || (j != i && runs[j].Holds(middle, 0)); });
-        if (!taken) Extend(run, at_end, reach);
+        const WallRun* round = nullptr;
+        tree.ForEachIn(Eigen::AlignedBox2d(middle), [&](uint32_t j) {
+          if (j == i || !runs[j].Holds(middle, 0)) return;
+          taken = true;
+          if (runs[j].curve) round = &runs[j];
+        });
+        if (!taken) Extend(run, at_end, [&](const Eigen::Vector2d& end) { return WallAhead(end, sign * run.along, reach); });
+        if (round != nullptr) Extend(run, at_end, [&](const Eigen::Vector2d& end) { return WayTo(*round, end, sign * run.along); });
       }
     }
   }
 
-  // Each side as far as there is wall beside it; both as far as the middle where the corner is square.
-  void Extend(WallRun& run, bool at_end, double reach_m) const {
+  // As far as there is wall.
+  double WallAhead(const Eigen::Vector2d& from, const Eigen::Vector2d& along, double most_m) const {
+    if (!outline_.InWall(from)) return 0;
+    const auto hit = outline_.Cast(from, along, kJunction * options_.max_thickness_m);
+    return hit ? hit->t_m + kOffSide_m : most_m;
+  }
+
+  // As far as the face of a round wall.
+  double WayTo(const WallRun& round, const Eigen::Vector2d& from, const Eigen::Vector2d& along) const {
+    const Eigen::Vector2d p = from - round.curve->center;
+    const double r_m = p.norm() > round.curve->radius_m ? round.curve->radius_m - round.right_m : round.curve->radius_m - round.left_m;
+    const double b = p.dot(along), square = b * b - p.squaredNorm() + r_m * r_m;
+    if (square < 0 || !outline_.InWall(from)) return 0;
+    const double way_m = p.norm() > r_m ? -b - std::sqrt(square) : -b + std::sqrt(square);
+    return way_m > 0 && way_m < kJunction * options_.max_thickness_m ? way_m : 0;
+  }
+
+  // Each side by as much as `reach_at` says from there on; both as far as each other where the corner is square.
+  template <class ReachAt>
+  void Extend(WallRun& run, bool at_end, const ReachAt& reach_at) const {
     double& end_m = at_end ? run.end_m : run.start_m;
-    const double sign = at_end ? 1 : -1;
-    const auto reach_at = [&](double t_m) {
-      const Eigen::Vector2d from = run.At(end_m + sign * kOffSide_m, t_m);
-      if (!outline_.InWall(from)) return 0.0;
-      const auto hit = outline_.Cast(from, sign * run.along, kJunction * options_.max_thickness_m);
-      return hit ? hit->t_m + kOffSide_m : reach_m;
-    };
-    const double right_m = reach_at(run.right_m + kOffSide_m), left_m = reach_at(run.left_m - kOffSide_m);
-    const bool square = std::abs(right_m - reach_m) < kSquare_m && std::abs(left_m - reach_m) < kSquare_m;
-    const double most_m = square ? reach_m : std::max(right_m, left_m);
+    const double sign = at_end ? 1 : -1, from_m = end_m + sign * kOffSide_m;
+    const double right_m = reach_at(run.At(from_m, run.right_m + kOffSide_m)), left_m = reach_at(run.At(from_m, run.left_m - kOffSide_m));
+    const bool square = std::abs(right_m - left_m) < kSquare_m;
+    const double most_m = std::max(right_m, left_m);
     end_m += sign * most_m;
     if (!square) (at_end ? run.end_cut : run.start_cut) = {most_m - right_m, most_m - left_m};
   }
@@ -221,7 +242,7 @@ class RunFinder {
       const auto best = [&](const Eigen::Vector2d& at, double slack_m) {
         const Eigen::Vector2d reach = Eigen::Vector2d::Constant(slack_m);
         tree.ForEachIn({at - reach, at + reach}, [&](uint32_t r) {
-          if (r < host && runs[r].Holds(at, slack_m) && std::abs(runs[r].along.dot(opening.along())) > kFacing) host = r;
+          if (r < host && runs[r].Holds(at, slack_m) && GoesAlong(runs[r], opening)) host = r;
         });
       };
       best(opening.middle(), kOff_m);
@@ -240,7 +261,13 @@ class RunFinder {
     }
   }
 
+  static bool GoesAlong(const WallRun& run, const DrawnOpening& o) {
+    if (run.curve || o.curve) return run.curve && o.curve && IsSameCurve(*run.curve, *o.curve);
+    return std::abs(run.along.dot(o.along())) > kFacing;
+  }
+
   static WallRun PieceFor(const DrawnOpening& o) {
+    if (o.curve) return RoundPieceFor(o);
     WallRun run;
     run.along = o.along();
     run.start_m = run.S(o.from);
@@ -259,18 +286,6 @@ class RunFinder {
 };
 
 }  // namespace
-
-bool WallRun::Holds(const Eigen::Vector2d& p, double slack_m) const {
-  const double s = S(p), t = T(p);
-  const double u = thickness_m() > 0 ? std::clamp((t - right_m) / thickness_m(), 0.0, 1.0) : 0;
-  const auto at = [u](const Cut& cut) { return cut.right_m + u * (cut.left_m - cut.right_m); };
-  return s >= start_m + at(start_cut) - slack_m && s <= end_m - at(end_cut) + slack_m && t >= right_m - slack_m && t <= left_m + slack_m;
-}
-
-std::vector<Eigen::Vector2d> WallRun::Part(double from_m, double to_m) const {
-  return {At(std::max(from_m, start_m + start_cut.right_m), right_m), At(std::min(to_m, end_m - end_cut.right_m), right_m),
-          At(std::min(to_m, end_m - end_cut.left_m), left_m), At(std::max(from_m, start_m + start_cut.left_m), left_m)};
-}
 
 std::vector<WallRun> FindWallRuns(const Outline& outline, const std::vector<DrawnOpening>& openings, const RunOptions& options) {
   return RunFinder(outline, openings, options).Run();

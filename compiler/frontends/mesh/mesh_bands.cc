@@ -11,6 +11,7 @@ namespace {
 
 constexpr double kCap_m = 0.01;  // from the end of a wall to the face that closes it
 constexpr double kCovered = 0.9;
+constexpr double kAskew = 0.3;  // tangent of the angle between a cap and a square one
 
 void AddSpan(double s0_m, double s1_m, std::vector<Span>& spans) {
   if (!spans.empty() && s0_m <= spans.back().s1_m + kMarkWeld_m)
@@ -150,6 +151,22 @@ class Bundle {
     return 0;
   }
 
+  // Where the wall ends that both faces reach s of: at its cap, which jambs in curves have a little askew, else where its longer face ends.
+  double EndOf(size_t low, size_t high, size_t height, double s_m, int step) const {
+    if (IsCapped(low, high, height, s_m)) return s_m;
+    const double beyond_m = std::max(Overhang(low, height, s_m, step), Overhang(high, height, s_m, step));
+    const double c_m = 0.5 * (offsets_[low] + offsets_[high]);
+    double cap_m = beyond_m;
+    for (const FaceSegment& f : stack_.segments[height]) {
+      const double ca = direction_.C(f.a), cb = direction_.C(f.b);
+      if (beyond_m == 0 || (ca < c_m) == (cb < c_m)) continue;
+      const double sa = step * (direction_.S(f.a) - s_m), sb = step * (direction_.S(f.b) - s_m);
+      const double at_m = sa + (sb - sa) * (c_m - ca) / (cb - ca);
+      if (std::abs(sa - sb) <= kAskew * std::abs(ca - cb) && at_m > -kCap_m && at_m < cap_m) cap_m = std::max(0.0, at_m);
+    }
+    return s_m + step * cap_m;
+  }
+
   // Where walls meet, the faces of one end at the other: the solid goes on through gaps that nothing caps, and into corners along the
   // outer face.
   void Complete(size_t low, size_t high, size_t height, std::vector<Span>& spans) const {
@@ -165,8 +182,8 @@ class Bundle {
         out.push_back(s);
     }
     for (Span& s : out) {
-      if (!IsCapped(low, high, height, s.s0_m)) s.s0_m -= std::max(Overhang(low, height, s.s0_m, -1), Overhang(high, height, s.s0_m, -1));
-      if (!IsCapped(low, high, height, s.s1_m)) s.s1_m += std::max(Overhang(low, height, s.s1_m, 1), Overhang(high, height, s.s1_m, 1));
+      s.s0_m = EndOf(low, high, height, s.s0_m, -1);
+      s.s1_m = EndOf(low, high, height, s.s1_m, 1);
     }
     spans = std::move(out);
   }

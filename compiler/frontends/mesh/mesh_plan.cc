@@ -12,6 +12,7 @@
 #include "compiler/frontends/mesh/mesh_levels.h"
 #include "compiler/frontends/mesh/mesh_names.h"
 #include "compiler/frontends/mesh/mesh_parts.h"
+#include "compiler/frontends/mesh/mesh_voids.h"
 #include "compiler/geometry/sweep.h"
 
 namespace plumb::compiler {
@@ -28,10 +29,10 @@ constexpr double kMinWindow_m2 = 0.05;
 constexpr double kWeld_m = 1e-4;
 
 // A door's threshold may be a step; a window as low as that is wide.
-bool IsPassage(const WallVoid& v, double floor_z_m) {
-  const bool narrow = v.span.s1_m - v.span.s0_m <= kMaxSteppedDoor_m;
-  return v.z0_m <= floor_z_m + (narrow ? kMaxStep_m : kMaxDoorSill_m) && v.z1_m - std::max(v.z0_m, floor_z_m) >= kMinDoorHeight_m &&
-         v.span.s1_m - v.span.s0_m >= kMinDoorWidth_m;
+bool IsPassage(const MeshOpening& o, double floor_z_m) {
+  const bool narrow = o.width_m <= kMaxSteppedDoor_m;
+  return o.z0_m <= floor_z_m + (narrow ? kMaxStep_m : kMaxDoorSill_m) && o.z1_m - std::max(o.z0_m, floor_z_m) >= kMinDoorHeight_m &&
+         o.width_m >= kMinDoorWidth_m;
 }
 
 class Planner {
@@ -126,26 +127,24 @@ class Planner {
       }
     }
     for (uint32_t s = 0; s < storeys_.size(); ++s) {
-      std::map<size_t, uint32_t> wall_of;  // by the first piece
-      for (size_t p = 0; p < storeys_[s].pieces.size(); ++p) {
-        const size_t first = curves[s].first[p];
-        const auto [wall, fresh] = wall_of.try_emplace(first, static_cast<uint32_t>(plan_.elements.size()));
-        if (fresh) {
-          const MeshObject& owner = wall_objects_[owners[s][p]];
-          const std::string base = owner.name.empty() ? "mesh" : owner.name;
-          AddWall(s, storeys_[s].pieces[p], owner, total[owner.name] > 1 ? fmt::format("{}#{}", base, ++count[owner.name]) : base);
-        }
-        AddPiece(s, p, curves[s].corners[p], wall->second);
+      std::map<size_t, std::vector<size_t>> members;  // by the first piece of each wall
+      for (size_t p = 0; p < storeys_[s].pieces.size(); ++p) members[curves[s].first[p]].push_back(p);
+      for (const auto& [first, pieces] : members) {
+        const MeshObject& owner = wall_objects_[owners[s][first]];
+        const std::string base = owner.name.empty() ? "mesh" : owner.name;
+        const auto wall = static_cast<uint32_t>(plan_.elements.size());
+        AddWall(s, storeys_[s].pieces[first], owner, total[owner.name] > 1 ? fmt::format("{}#{}", base, ++count[owner.name]) : base);
+        for (const size_t p : pieces) AddPiece(s, p, curves[s].corners[p], wall);
+        if (storeys_[s].pieces[first].column) continue;
+        for (const MeshOpening& o : JoinVoids(directions_, storeys_[s].pieces, curves[s], pieces)) AddOpening(s, o, wall);
       }
     }
   }
 
-  Solid BoxOf(const WallPiece& piece, const Span& span, double z0_m, double z1_m) const {
-    const FaceDirection& d = directions_[piece.direction];
-    Eigen::Affine3d T_plan_wall = Eigen::Affine3d::Identity();
-    T_plan_wall.linear().col(0) << d.along, 0;
-    T_plan_wall.linear().col(1) << d.across, 0;
-    return MakeBox({span.s0_m, piece.c0_m, z0_m}, {span.s1_m, piece.c1_m, z1_m}, T_plan_wall);
+  static Solid Upright(const std::array<Vector2d, 4>& footprint, double z0_m, double z1_m) {
+    Solid out = Extrude({Ring(footprint.begin(), footprint.end())}, {0, 0, z1_m - z0_m});
+    for (Vector3d& v : out.vertices) v.z() += z0_m;
+    return out;
   }
 
   void AddWall(uint32_t s, const WallPiece& piece, const MeshObject& owner, const std::string& guid) {
@@ -164,35 +163,30 @@ class Planner {
     const StoreyWalls& storey = storeys_[s];
     const WallPiece& piece = storey.pieces[p];
     PlanElement& wall = plan_.elements[element];
-    Solid part = Extrude({Ring(corners.begin(), corners.end())}, {0, 0, piece.z1_m - piece.z0_m});
-    for (Vector3d& v : part.vertices) v.z() += piece.z0_m;
-    AppendSolid(std::move(part), wall.uncut);
+    AppendSolid(Upright(corners, piece.z0_m, piece.z1_m), wall.uncut);
     for (const auto& [object, triangles] : storey.triangles[p]) AppendPart(wall_objects_[object].solid, triangles, wall.body);
     Report(piece, wall.location);
-    if (piece.column) return;
-    const std::string guid = wall.guid;  // openings are elements, too
-    for (const WallVoid& v : piece.voids) AddOpening(s, piece, v, element, fmt::format("{}/{}", guid, ++num_openings_[element]));
   }
 
-  void AddOpening(uint32_t s, const WallPiece& piece, const WallVoid& v, uint32_t wall, const std::string& guid) {
+  void AddOpening(uint32_t s, const MeshOpening& o, uint32_t wall) {
     PlanOpening opening;
-    opening.guid = guid;
+    opening.guid = fmt::format("{}/{}", plan_.elements[wall].guid, ++num_openings_[wall]);
     opening.location = plan_.elements[wall].location;
     opening.wall = wall;
     const double floor_z_m = storeys_[s].range.floor_z_m;
-    const bool passage = IsPassage(v, floor_z_m);
+    const bool passage = IsPassage(o, floor_z_m);
     // Down to the floor, also where the wall or a threshold ends above it.
-    opening.body = BoxOf(piece, v.span, passage ? std::min(v.z0_m, floor_z_m) : v.z0_m, v.z1_m);
-    opening.width_m = v.span.s1_m - v.span.s0_m;
-    opening.height_m = v.z1_m - v.z0_m;
+    for (const auto& footprint : o.footprints) AppendSolid(Upright(footprint, passage ? std::min(o.z0_m, floor_z_m) : o.z0_m, o.z1_m), opening.body);
+    opening.width_m = o.width_m;
+    opening.height_m = o.z1_m - o.z0_m;
     if (!passage) {
       if (*opening.width_m * *opening.height_m < kMinWindow_m2) return;
       PlanElement window;
       window.kind = ElementKind::kWindow;
       window.material = Material::kGlass;
-      window.guid = window.name = guid;
+      window.guid = window.name = opening.guid;
       window.location = opening.location;
-      window.location.guid = guid;
+      window.location.guid = opening.guid;
       window.type = plan_.elements[wall].type;
       window.storey = s;
       opening.filling = static_cast<uint32_t>(plan_.elements.size());

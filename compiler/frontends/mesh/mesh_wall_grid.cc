@@ -100,6 +100,12 @@ WallPiece WallGrid::Outline(const Columns& run) const {
       out.z1_m = std::max(out.z1_m, (*breaks_m_)[k + 1]);
     }
   }
+  // What holds these columns stands on the floor.
+  const auto state = state_.begin() + static_cast<std::ptrdiff_t>(run.first);
+  if (std::find(state, state + static_cast<std::ptrdiff_t>(run.last - run.first + 1), WallState::kHeld) != state + static_cast<std::ptrdiff_t>(run.last - run.first + 1)) {
+    out.z0_m = std::min(out.z0_m, range_.floor_z_m);
+    if (out.z1_m < range_.floor_z_m + kWallHeight_m) out.z1_m = range_.top_z_m;
+  }
   return out;
 }
 
@@ -129,7 +135,9 @@ void WallGrid::AddVoids(const Columns& run, WallPiece& out) const {
 void WallGrid::AddVoidsOfColumns(size_t first, size_t end, WallPiece& out) const {
   const std::vector<char>& solid = solid_[first];
   const Span span{s_m_[first], s_m_[end]};
-  if (span.s1_m - span.s0_m < kMinVoid_m) return;
+  // At an end the opening may go on in the next facet of a curve.
+  const bool at_end = span.s0_m <= out.span.s0_m || span.s1_m >= out.span.s1_m;
+  if (span.s1_m - span.s0_m < kMinVoid_m && !at_end) return;
   for (size_t k = 0; k < solid.size();) {
     size_t above = k + 1;
     while (above < solid.size() && solid[above] == solid[k]) ++above;

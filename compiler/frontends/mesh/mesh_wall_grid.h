@@ -7,7 +7,8 @@
 
 namespace plumb::compiler {
 
-enum class WallState : uint8_t { kEmpty, kPartial, kCore };  // core: stands from the floor as high as walls do
+// Core: stands from the floor as high as walls do. Held: open below or above, between parts of the same wall.
+enum class WallState : uint8_t { kEmpty, kPartial, kHeld, kCore };
 
 // Columns from first to last, both included.
 struct Columns {
@@ -23,6 +24,7 @@ class WallGrid {
   [[nodiscard]] size_t size() const { return state_.size(); }
   [[nodiscard]] WallState state(size_t column) const { return state_[column]; }
   void Hide(size_t column) { state_[column] = WallState::kEmpty; }
+  void Hold(size_t column) { state_[column] = WallState::kHeld; }
   [[nodiscard]] double Start(size_t column) const { return s_m_[column]; }
   [[nodiscard]] double End(size_t column) const { return s_m_[column + 1]; }
   [[nodiscard]] double Middle(size_t column) const { return 0.5 * (s_m_[column] + s_m_[column + 1]); }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "compiler/frontends/mesh/mesh_facets.h"
 #include "compiler/frontends/mesh/mesh_wall_gaps.h"
 #include "compiler/frontends/mesh/mesh_wall_grid.h"
 #include "compiler/frontends/mesh/mesh_wall_set.h"
@@ -37,6 +38,7 @@ class WallFinder {
     for (const Band& band : bands) {
       if (!band.sheet) grids_.emplace_back(band, breaks_m_, range_);
     }
+    HoldFacets(walls_.directions(), kMaxOpening_m, grids_);
     for (const WallGrid& grid : grids_) AddCores(grid, kMinLength_m);
     walls_.DropContained();
     AddSheets(bands);
@@ -65,7 +67,7 @@ class WallFinder {
     };
     for (size_t j = 0; j < grid.size(); ++j) {
       if (grid.state(j) == WallState::kEmpty) flush();
-      if (grid.state(j) != WallState::kCore) continue;
+      if (grid.state(j) != WallState::kCore && grid.state(j) != WallState::kHeld) continue;
       if (open && grid.Start(j) - grid.End(open->last) > kMaxOpening_m) flush();
       if (!open) open = {j, j};
       open->last = j;

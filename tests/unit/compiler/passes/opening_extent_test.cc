@@ -46,6 +46,15 @@ TEST(SolidInterval, IsThePieceOfWallNextToTheOpening) {
   EXPECT_FALSE(SolidInterval(two, Vector2d(7, 0), Vector2d::UnitY()));
 }
 
+TEST(SolidInterval, GoesOnFromOnePartOfAWallToTheNext) {
+  // Two facets that share an askew end, which the line across runs through.
+  const std::vector<Ring> parts = {{{0, 0}, {2, 0}, {2.1, 0.3}, {0, 0.3}}, {{2, 0}, {4, 0}, {4, 0.3}, {2.1, 0.3}}};
+  const auto found = SolidInterval(parts, Vector2d(2.05, 0.1), Vector2d::UnitY());
+  ASSERT_TRUE(found);
+  EXPECT_NEAR(found->first, -0.1, 1e-12);
+  EXPECT_NEAR(found->second, 0.2, 1e-12);
+}
+
 TEST(SideNextTo, IsTheDirectionOfTheNearestSide) {
   const std::vector<Ring> bent = {{{0, 0}, {2, 0}, {3, 1}, {3, 1.3}, {1.9, 0.2}, {0, 0.2}}};
   const auto side = SideNextTo(bent, Vector2d(2.6, 0.5));

@@ -90,6 +90,39 @@ TEST(AppendStorey, PiecesOfWallBetweenCrossingWallsAreNoDoors) {
   EXPECT_EQ(Compiled(plan).rooms.size(), 3u);
 }
 
+// Two leaves with a post of 6 cm between them, in a wall 0.2 m thick.
+TEST(AppendStorey, LeavesThatMeetAtAPostAreOneDoorway) {
+  Drawing drawing;
+  const auto box = [&](double x0, double y0, double x1, double y1) {
+    AddRing({{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, std::to_string(drawing.paths.size()), drawing);
+  };
+  box(-0.2, -0.2, 2, 0);
+  box(2.9, -0.2, 2.96, 0);
+  box(3.86, -0.2, 6.2, 0);
+  box(-0.2, 0, 0, 4.2);
+  box(6, 0, 6.2, 4.2);
+  box(0, 4, 6, 4.2);
+  for (const bool left : {true, false}) {
+    DrawnPath swing;
+    swing.role = LineRole::kDoor;
+    const Eigen::Vector2d hinge(left ? 2 : 3.86, 0);
+    swing.arcs.push_back({hinge, 0.9, left ? 0.0 : std::numbers::pi, left ? 0.5 * std::numbers::pi : -0.5 * std::numbers::pi});
+    for (int i = 0; i <= 9; ++i) {
+      const double a = swing.arcs[0].start_rad + swing.arcs[0].sweep_rad * i / 9;
+      swing.points.push_back(hinge + 0.9 * Eigen::Vector2d(std::cos(a), std::sin(a)));
+    }
+    drawing.paths.push_back(swing);
+  }
+  PlanIr plan;
+  DiagnosticSink sink;
+  ASSERT_TRUE(AppendStorey(drawing, {{}, "Ground", {}, 0.0}, {}, plan, sink));
+  const AGraph graph = Compiled(plan);
+  EXPECT_EQ(graph.rooms.size(), 1u);
+  ASSERT_EQ(graph.doorways.size(), 1u);
+  EXPECT_NEAR(graph.doorways[0].width_m, 1.86, 1e-3);
+  EXPECT_NEAR(graph.doorways[0].position.x(), 2.93, 1e-3);
+}
+
 // A wall that is drawn as one line ends where its line does: a gap of 0.9 m is a doorway of 0.9 m.
 TEST(AppendStorey, SingleLinesEndWhereTheyAreDrawn) {
   const Drawing drawing = WallLines({{0, 0, 8, 0}, {8, 0, 8, 5}, {8, 5, 0, 5}, {0, 5, 0, 0}, {4, 0, 4, 2}, {4, 2.9, 4, 5}});

@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <set>
 
 #include "tests/unit/compiler/frontends/mesh/scenes.h"
@@ -92,6 +94,22 @@ TEST(MeshPlan, TakesTheSkinsOfADoubleWallForOneWithoutARoomBetween) {
     if (box.min().y() < 4.001 && box.max().y() > 4.199 && box.sizes().x() > 3) covered_m = box.sizes().x();
   }
   EXPECT_NEAR(covered_m, 6, 0.01);
+}
+
+// Five degrees each: no facet of the opening stands from floor to ceiling.
+TEST(MeshPlan, HasOneDoorOrWindowOverTheFacetsOfACurve) {
+  for (const bool door : {true, false}) {
+    MeshScene scene;
+    const double radius_m = 3.1 * std::cos(std::numbers::pi / 72), width_m = 2 * 3.1 * std::sin(std::numbers::pi / 18);
+    test::AddRingWithOpening(3, 0.2, 2.7, 72, 4, door ? 0 : 0.9, door ? 2.1 : 2.2, scene);
+    const PlanIr plan = PlanOf(scene);
+    EXPECT_EQ(WallsOf(plan).size(), 1u);
+    ASSERT_EQ(plan.openings.size(), 1u);
+    EXPECT_NEAR(plan.openings[0].width_m.value_or(0), width_m, 0.01);
+    EXPECT_EQ(plan.openings[0].filling != kNoIndex, !door);
+    const Eigen::Vector2d middle(radius_m * std::cos(std::numbers::pi / 18), radius_m * std::sin(std::numbers::pi / 18));
+    EXPECT_LT((Bounds(plan.openings[0].body).center().head<2>() - middle).norm(), 0.06);
+  }
 }
 
 TEST(MeshPlan, KeepsEveryTriangleOfTheScene) {

@@ -53,6 +53,38 @@ inline void AddRing(double inner_m, double thickness_m, double height_m, int sid
   scene.objects.push_back(std::move(o));
 }
 
+// A ring wall as AddRing makes it, open between two heights over `open` of its steps.
+inline void AddRingWithOpening(double inner_m, double thickness_m, double height_m, int sides, int open, double sill_m, double head_m,
+                               MeshScene& scene) {
+  MeshObject o;
+  o.name = "ring";
+  const auto corner = [&](int i, double r_m, double z_m) {
+    const double a = 2 * std::numbers::pi * i / sides;
+    o.solid.vertices.emplace_back(r_m * std::cos(a), r_m * std::sin(a), z_m);
+    return static_cast<int>(o.solid.vertices.size() - 1);
+  };
+  const double outer_m = inner_m + thickness_m;
+  const auto quad = [&](int i, double r_m, double z_m, int j, double s_m, double y_m, int k, double t_m, double x_m, int l, double u_m, double w_m) {
+    const int a = corner(i, r_m, z_m), b = corner(j, s_m, y_m), c = corner(k, t_m, x_m), d = corner(l, u_m, w_m);
+    o.solid.triangles.emplace_back(a, b, c);
+    o.solid.triangles.emplace_back(a, c, d);
+  };
+  const auto add = [&](int i, double low_m, double high_m) {
+    if (high_m <= low_m) return;
+    quad(i, outer_m, low_m, i + 1, outer_m, low_m, i + 1, outer_m, high_m, i, outer_m, high_m);
+    quad(i + 1, inner_m, low_m, i, inner_m, low_m, i, inner_m, high_m, i + 1, inner_m, high_m);
+    quad(i, inner_m, high_m, i, outer_m, high_m, i + 1, outer_m, high_m, i + 1, inner_m, high_m);
+    quad(i, outer_m, low_m, i, inner_m, low_m, i + 1, inner_m, low_m, i + 1, outer_m, low_m);
+  };
+  for (int i = 0; i < sides; ++i) {
+    add(i, 0, i < open ? sill_m : height_m);
+    if (i < open) add(i, head_m, height_m);
+  }
+  quad(0, inner_m, sill_m, 0, outer_m, sill_m, 0, outer_m, head_m, 0, inner_m, head_m);
+  quad(open, outer_m, sill_m, open, inner_m, sill_m, open, inner_m, head_m, open, outer_m, head_m);
+  scene.objects.push_back(std::move(o));
+}
+
 inline void Turn(const Eigen::Affine3d& T, MeshScene& scene) {
   for (MeshObject& o : scene.objects) TransformSolid(T, o.solid);
 }

@@ -44,7 +44,7 @@ TEST(Rooms, OfTheFzkHouseAreThoseOfItsPlan) {
   for (const Json& room : plan.at("rooms")) {
     if (room.at("storey") != storey || open.contains(room.at("id").get<int>())) continue;
     const test::Ring2 ring = test::RingOf(room.at("polygon"));
-    const auto stood_in = [&](const Json& keyframe) { return test::Inside(ring, test::PointOf(keyframe.at("position"))); };
+    const auto stood_in = [&](const Json& keyframe) { return plumb::Contains(ring, test::PointOf(keyframe.at("position"))); };
     if (std::none_of(sgraph.at("keyframes").begin(), sgraph.at("keyframes").end(), stood_in)) continue;
     ++rooms;
     EXPECT_GT(test::BestOverlap(ring, sgraph.at("rooms")), 0.8) << room.at("name");

@@ -14,7 +14,7 @@ constexpr double kSameFacingCos = 0.8;
 // Two views of one surface may differ in direction by this much at the shorter one's ends, and by odometry's drift.
 constexpr double kEndOffset_m = 0.03, kMinAngle_rad = 0.02;
 constexpr double kMaxJointOff = 0.5;  // of the merge distance: how much further from the common plane than from its own a part's points may be, rms
-constexpr double kEchoPoints = 0.2, kEchoFacingCos = 0.94, kEchoDistance_m = 0.06, kEchoShare = 0.6;
+constexpr double kEchoPoints = 0.2, kEchoFacingCos = 0.94, kEchoDistance_m = 0.15, kEchoShare = 0.6;
 constexpr double kEdge_m = 0.5 * kCell_m;  // a cell's mean point lies inside the surface's edge by about this
 
 double MeanSquareDistance(const PlaneStats& sum, const Plane& plane) {
@@ -129,9 +129,19 @@ bool FitOnePlane(const SurfaceTrack& a, const SurfaceTrack& b, const MapperOptio
   return fits(a.sum) && fits(b.sum);
 }
 
-bool IsEcho(const MapSurface& b, const SurfacePatch& b_patch, const MapSurface& a, const SurfacePatch& a_patch) {
-  if (a.kind != b.kind || b.num_points > kEchoPoints * a.num_points || a.plane.n.dot(b.plane.n) < kEchoFacingCos) return false;
-  return a_patch.ShareCovered(b_patch, kEchoDistance_m) >= kEchoShare;
+bool IsEcho(const MapSurface& b, const SurfacePatch& b_patch, const std::vector<MapSurface>& surfaces, const std::vector<SurfaceTrack>& tracks) {
+  std::vector<const SurfacePatch*> stronger;
+  for (size_t i = 0; i < surfaces.size(); ++i) {
+    const MapSurface& a = surfaces[i];
+    const bool strong = a.kind == b.kind && !a.observations.empty() && b.num_points <= kEchoPoints * a.num_points;
+    if (strong && a.plane.n.dot(b.plane.n) >= kEchoFacingCos) stronger.push_back(&tracks[i].patch);
+  }
+  if (stronger.empty()) return false;
+  const std::vector<Eigen::Vector3d> cells = b_patch.CellPoints();
+  const auto covered = std::count_if(cells.begin(), cells.end(), [&](const Eigen::Vector3d& p) {
+    return std::any_of(stronger.begin(), stronger.end(), [&](const SurfacePatch* a) { return a->Covers(p, kEchoDistance_m); });
+  });
+  return static_cast<double>(covered) >= kEchoShare * static_cast<double>(cells.size());
 }
 
 void Absorb(const TrackedSurface& b, const std::vector<Keyframe>& keyframes, MapSurface* a, SurfaceTrack* a_track) {

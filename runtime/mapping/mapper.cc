@@ -157,9 +157,7 @@ void Mapper::AddSegment(const Segment& segment, const Keyframe& keyframe) {
     Absorb(candidate, graph_.keyframes, &graph_.surfaces[best], &tracks_[best]);
     return;
   }
-  for (size_t i = 0; i < graph_.surfaces.size(); ++i) {
-    if (!graph_.surfaces[i].observations.empty() && IsEcho(candidate.surface, candidate.track.patch, graph_.surfaces[i], tracks_[i].patch)) return;
-  }
+  if (IsEcho(candidate.surface, candidate.track.patch, graph_.surfaces, tracks_)) return;
   candidate.surface.id = static_cast<uint32_t>(graph_.surfaces.size());
   graph_.surfaces.push_back(std::move(candidate.surface));
   tracks_.push_back(std::move(candidate.track));
@@ -185,9 +183,7 @@ void Mapper::MergeDuplicates() {
     }
   }
   for (size_t i = 0; i < surfaces.size(); ++i) {
-    for (size_t k = 0; k < surfaces.size() && !surfaces[i].observations.empty(); ++k) {
-      if (i != k && !surfaces[k].observations.empty() && IsEcho(surfaces[i], tracks_[i].patch, surfaces[k], tracks_[k].patch)) Empty(i);
-    }
+    if (!surfaces[i].observations.empty() && IsEcho(surfaces[i], tracks_[i].patch, surfaces, tracks_)) Empty(i);
   }
 }
 

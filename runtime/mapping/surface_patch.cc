@@ -43,17 +43,13 @@ std::vector<Eigen::Vector3d> SurfacePatch::CellPoints() const {
   return points;
 }
 
-double SurfacePatch::ShareCovered(const SurfacePatch& b, double distance_m) const {
-  if (b.cells_.empty()) return 0;
-  size_t covered = 0;
-  for (const Eigen::Vector3d& p : b.CellPoints()) {
-    if (std::abs(plane_.SignedDistance(p)) > distance_m) continue;
-    const Eigen::Vector2d at = Coordinates(p) / kCell_m;
-    bool found = false;
-    for (int k = 0; k < 9 && !found; ++k) found = index_.Find(VoxelKey({at.x() + k % 3 - 1, at.y() + k / 3 - 1, 0})) != VoxelIndex::kNone;
-    covered += found ? 1 : 0;
+bool SurfacePatch::Covers(const Eigen::Vector3d& p, double distance_m) const {
+  if (std::abs(plane_.SignedDistance(p)) > distance_m) return false;
+  const Eigen::Vector2d at = Coordinates(p) / kCell_m;
+  for (int k = 0; k < 9; ++k) {
+    if (index_.Find(VoxelKey({at.x() + k % 3 - 1, at.y() + k / 3 - 1, 0})) != VoxelIndex::kNone) return true;
   }
-  return static_cast<double>(covered) / static_cast<double>(b.cells_.size());
+  return false;
 }
 
 double SurfacePatch::area_m2() const { return kCell_m * cell_height_m_ * static_cast<double>(cells_.size()); }

@@ -39,8 +39,8 @@ class SurfacePatch {
   [[nodiscard]] const std::vector<Eigen::Vector2f>& cells() const { return cells_; }
   [[nodiscard]] std::vector<Eigen::Vector3d> CellPoints() const;
   [[nodiscard]] double area_m2() const;
-  // Share of b's cells that lie within distance_m of this plane and on or next to one of this patch's cells.
-  [[nodiscard]] double ShareCovered(const SurfacePatch& b, double distance_m) const;
+  // Whether p lies within distance_m of the plane and on or next to a cell.
+  [[nodiscard]] bool Covers(const Eigen::Vector3d& p, double distance_m) const;
 
  private:
   uint32_t keyframe_;

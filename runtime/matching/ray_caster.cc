@@ -23,7 +23,7 @@ RayCaster::RayCaster(const Mesh& mesh, const std::vector<bool>& keep) {
   // One thread builds: the tree, and so the order of equal hits, must not depend on the machine.
   impl->device = rtcNewDevice("threads=1,set_affinity=0");
   impl->scene = rtcNewScene(impl->device);
-  rtcSetSceneFlags(impl->scene, RTC_SCENE_FLAG_ROBUST);
+  rtcSetSceneFlags(impl->scene, static_cast<RTCSceneFlags>(RTC_SCENE_FLAG_ROBUST | RTC_SCENE_FLAG_COMPACT));
   for (uint32_t i = 0; i < mesh.triangles.size(); ++i) {
     if (keep.empty() || keep[i]) impl->triangle_of_primitive.push_back(i);
   }

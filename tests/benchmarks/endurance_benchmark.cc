@@ -1,8 +1,8 @@
 // Hours of driving without hours of waiting: memory, and whether the graph keeps up, every five simulated minutes.
-//   endurance_benchmark PLAN.agraph [MINUTES]    60 by default
+//   endurance_benchmark PLAN.agraph [MINUTES [SCANS_PER_S]]    60 and 10 by default; keyframes, and so the map, grow the same with 5 scans a second
 //
 // A second process simulates the scans (VLP-16, no deviations) and hands them on through a pipe, so that the memory shown is the localizer's.
-// Scans are fed as fast as it goes, odometry and graph in turn; `behind` is how far the graph would lag at 10 Hz on a core of its own.
+// Scans are fed as fast as it goes, odometry and graph in turn; `behind` is how far the graph would lag at that rate on a core of its own.
 #include <fmt/core.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -57,7 +57,7 @@ struct Header {
 };
 
 // The simulating process. False if nothing can be driven through.
-bool Simulate(const AGraph& plan, double duration_s, int out) {
+bool Simulate(const AGraph& plan, double duration_s, double period_s, int out) {
   std::vector<size_t> rooms(plan.storeys.size(), 0);
   for (const Room& room : plan.rooms) {
     if (room.storey.valid()) ++rooms[room.storey.index()];
@@ -74,8 +74,8 @@ bool Simulate(const AGraph& plan, double duration_s, int out) {
   const auto tour = tools::PlanTour(built->house, space, tools::FindReach(built->house, storey, space), tour_options, random);
   if (!tour) return false;
   const tools::Lidar lidar(built->house, *tools::FindSensor("vlp16"), options.glass_transmission);
-  for (size_t i = 0; static_cast<double>(i + 1) * 0.1 < tour->drive.duration_s(); ++i) {
-    const double at_s = static_cast<double>(i) * 0.1;
+  for (size_t i = 0; static_cast<double>(i + 1) * period_s < tour->drive.duration_s(); ++i) {
+    const double at_s = static_cast<double>(i) * period_s;
     const auto sweep = lidar.Take(at_s, at_s, [&](double t_s) { return tour->drive.PoseAt(t_s); }, random);
     Header header{at_s, {}, sweep.scan.points.size()};
     Eigen::Map<Eigen::Matrix4d>(header.T_plan_lidar.data()) = tour->drive.PoseAt(at_s).matrix();
@@ -95,7 +95,7 @@ double Memory_MB() {
   return static_cast<double>(resident) * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
-int Localize(const AGraph& plan, int in) {
+int Localize(const AGraph& plan, double period_s, int in) {
   runtime::Localizer localizer(plan);
   fmt::print("{:>7} {:>9} {:>10} {:>10} {:>13} {:>10} {:>9} {:>9} {:>10}\n", "minute", "RSS MB", "keyframes", "surfaces", "odometry ms", "graph ms", "behind s",
              "found %", "worst m");
@@ -130,7 +130,7 @@ int Localize(const AGraph& plan, int in) {
     const runtime::ScanVerdict verdict = localizer.Track(registered, localizer.UpdateGraph(registered));
     const double spent_ms = watch.Lap();
     graph_ms += spent_ms;
-    behind_ms = std::max(0.0, behind_ms + spent_ms - 100);
+    behind_ms = std::max(0.0, behind_ms + spent_ms - 1e3 * period_s);
     worst_behind_ms = std::max(worst_behind_ms, behind_ms);
     ++scans;
     if (verdict.verdict != runtime::Verdict::kLocalized) continue;
@@ -148,8 +148,9 @@ int Localize(const AGraph& plan, int in) {
 
 int main(int argc, char** argv) {
   const double minutes = argc > 2 ? std::atof(argv[2]) : 60;
-  if (argc < 2 || !(minutes > 0)) {
-    fmt::print(stderr, "usage: endurance_benchmark PLAN.agraph [MINUTES]\n");
+  const double period_s = 1 / (argc > 3 ? std::atof(argv[3]) : 10);
+  if (argc < 2 || !(minutes > 0) || !(period_s >= 0.1 && period_s <= 1)) {
+    fmt::print(stderr, "usage: endurance_benchmark PLAN.agraph [MINUTES [SCANS_PER_S]], 1 to 10 scans a second\n");
     return 2;
   }
   int ends[2];
@@ -163,10 +164,10 @@ int main(int argc, char** argv) {
   }
   if (child == 0) {
     ::close(ends[0]);
-    return Simulate(*plan, minutes * 60, ends[1]) ? 0 : 2;
+    return Simulate(*plan, minutes * 60, period_s, ends[1]) ? 0 : 2;
   }
   ::close(ends[1]);
-  const int status = Localize(*plan, ends[0]);
+  const int status = Localize(*plan, period_s, ends[0]);
   ::close(ends[0]);
   int child_status = 0;
   ::waitpid(child, &child_status, 0);

@@ -1,7 +1,7 @@
 // How well the S-Graph maps a building, with no plan given to it: a drive simulated in each plan, then odometry, mapping and the final polish.
 //   map_benchmark [--seconds S] [--noise M] [--clutter N] [--seed N] PLAN.agraph...
-// One row for each plan. ATE: of the scans' positions, rms, with the first two seconds laid on the truth. Walls: the plan's plane surfaces over 1 m long
-// that 20 scans or more have seen (simulate.h: kMinScanPoints), against the map after that alignment.
+// One row for each plan. ATE: of the scans' positions, rms, with the first two seconds laid on the truth. Walls: the plan's plane surfaces of which 20
+// scans or more have seen over 1 m, as built, against the map after that alignment: found if half of what was seen of them is in the map.
 #include <fmt/core.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -32,9 +32,11 @@ using namespace plumb;
 using namespace plumb::runtime;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kMinLength_m = 1.0, kSameDirection_rad = 0.2, kSamePlane_m = 0.15, kMinShare = 0.3;
+constexpr double kMinLength_m = 1.0, kSameDirection_rad = 0.2, kSamePlane_m = 0.15, kMinShare = 0.5;
 constexpr double kTwice_m = 0.1, kTwiceOverlap_m = 0.5, kTwiceShare = 0.3;
 constexpr uint32_t kMinScans = 20;
+constexpr double kBin_m = 0.25, kOnFace_m = 0.06;  // of a wall's length, seen by a scan that has kMinBinPoints returns from it
+constexpr int kMinBinPoints = 5;
 constexpr size_t kStart_scans = 20;
 
 double Since_ms(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
@@ -44,9 +46,14 @@ struct Face {
   Eigen::Vector2d start, end;
   double z_min_m = 0, z_max_m = 0;
   size_t surface = 0;  // of the map or the plan
+  double points = 0;   // of the map: returns from it
+  std::vector<uint32_t> bin_scans;  // of the plan: how many scans saw each kBin_m of it
   [[nodiscard]] Eigen::Vector2d direction() const { return (end - start).normalized(); }
   [[nodiscard]] double length_m() const { return (end - start).norm(); }
   [[nodiscard]] Eigen::Vector2d normal() const { return {-direction().y(), direction().x()}; }
+  [[nodiscard]] double seen_m() const {
+    return kBin_m * static_cast<double>(std::count_if(bin_scans.begin(), bin_scans.end(), [](uint32_t scans) { return scans >= kMinScans; }));
+  }
 };
 
 // Where both are, along `a`, metres from its start; empty if second <= first.
@@ -78,9 +85,30 @@ std::vector<Face> BuiltFaces(const AGraph& plan, const tools::SimulateSummary& s
         if (d.surface == SurfaceId(i)) T = Eigen::Translation2d(mid + d.translation_m * normal) * Eigen::Rotation2Dd(d.rotation_rad) * Eigen::Translation2d(-mid);
       }
     }
-    out.push_back({T * s.start, T * s.end, s.z_min_m, s.z_max_m, i});
+    out.push_back({T * s.start, T * s.end, s.z_min_m, s.z_max_m, i, 0, {}});
+    out.back().bin_scans.resize(static_cast<size_t>(out.back().length_m() / kBin_m));
   }
   return out;
+}
+
+// Counts a scan for the parts of the built faces that it saw.
+void CountSeen(const Scan& deskewed, const Eigen::Isometry3d& T_plan_lidar, std::vector<Face>& built) {
+  const Eigen::Isometry3f T = T_plan_lidar.cast<float>();
+  std::vector<Eigen::Vector3f> points;
+  for (const Eigen::Vector3f& p : deskewed.points) points.push_back(T * p);
+  std::vector<int> returns;
+  for (Face& face : built) {
+    const Eigen::Vector2f start = face.start.cast<float>(), along = face.direction().cast<float>(), normal = face.normal().cast<float>();
+    if (normal.dot(T.translation().head<2>() - start) <= 0) continue;
+    returns.assign(face.bin_scans.size(), 0);
+    for (const Eigen::Vector3f& p : points) {
+      const Eigen::Vector2f off = p.head<2>() - start;
+      if (std::abs(normal.dot(off)) > kOnFace_m || p.z() < face.z_min_m || p.z() > face.z_max_m) continue;
+      const double bin = static_cast<double>(along.dot(off)) / kBin_m;
+      if (bin >= 0 && bin < static_cast<double>(returns.size())) ++returns[static_cast<size_t>(bin)];
+    }
+    for (size_t i = 0; i < returns.size(); ++i) face.bin_scans[i] += returns[i] >= kMinBinPoints;
+  }
 }
 
 std::vector<Face> MappedFaces(const SGraph& map, const Eigen::Isometry3d& T_plan_map) {
@@ -95,7 +123,7 @@ std::vector<Face> MappedFaces(const SGraph& map, const Eigen::Isometry3d& T_plan
       return (T_plan_map * (p - s.plane.SignedDistance(p) * s.plane.n)).head<2>();
     };
     const double z_m = T_plan_map.translation().z();
-    out.push_back({to_plan(s.start), to_plan(s.end), s.z_min_m + z_m, s.z_max_m + z_m, i});
+    out.push_back({to_plan(s.start), to_plan(s.end), s.z_min_m + z_m, s.z_max_m + z_m, i, s.num_points, {}});
   }
   return out;
 }
@@ -127,17 +155,25 @@ double SharedCells(const MapSurface& a, const MapSurface& b) {
 WallScore ScoreWalls(const std::vector<Face>& built, const std::vector<Face>& mapped, const SGraph& map) {
   WallScore out;
   for (const Face& b : built) {
+    if (b.seen_m() < kMinLength_m) continue;
     ++out.walls;
-    double best_m = kMinShare * b.length_m();
-    const Face* best = nullptr;
+    std::vector<bool> mapped_bins(b.bin_scans.size());
+    double most = 0;
+    const Face* best = nullptr;  // the one with most returns: of a wall with windows, not the panes
     for (const Face& m : mapped) {
+      if (!LiesOn(b, m)) continue;
       const auto [from, to] = Overlap(b, m);
-      if (to - from < best_m || !LiesOn(b, m)) continue;
-      best_m = to - from;
+      for (size_t i = 0; i < mapped_bins.size(); ++i) {
+        const double middle_m = kBin_m * (static_cast<double>(i) + 0.5);
+        if (middle_m > from && middle_m < to && b.bin_scans[i] >= kMinScans) mapped_bins[i] = true;
+      }
+      const double points = m.points * (to - from) / m.length_m();
+      if (points <= most) continue;
+      most = points;
       best = &m;
     }
-    if (best == nullptr) {
-      fmt::print(stderr, "  missed: ({:.2f} {:.2f}) to ({:.2f} {:.2f})\n", b.start.x(), b.start.y(), b.end.x(), b.end.y());
+    if (kBin_m * static_cast<double>(std::count(mapped_bins.begin(), mapped_bins.end(), true)) < kMinShare * b.seen_m()) {
+      fmt::print(stderr, "  missed: ({:.2f} {:.2f}) to ({:.2f} {:.2f}), of which {:.2f} m were seen\n", b.start.x(), b.start.y(), b.end.x(), b.end.y(), b.seen_m());
       continue;
     }
     ++out.found;
@@ -181,7 +217,7 @@ struct Driven {
   std::vector<double> odometry_ms, mapping_ms;
 };
 
-bool Drive(const std::string& folder, Driven& out) {
+bool Drive(const std::string& folder, std::vector<Face>& built, Driven& out) {
   const auto recording = Recording::Open(folder);
   const auto truth = ReadTum(folder + "/truth.tum");
   if (!recording || !truth) return false;
@@ -196,6 +232,7 @@ bool Drive(const std::string& folder, Driven& out) {
     start = Clock::now();
     if (r.ok) out.mapper.AddScan(r.deskewed, r.T_odom_lidar);
     out.mapping_ms.push_back(Since_ms(start));
+    if (r.ok) CountSeen(r.deskewed, *at, built);
     const size_t keyframes = out.mapper.graph().keyframes.size();
     out.places.push_back({keyframes > 0 ? keyframes - 1 : 0, r.T_odom_lidar, *at});
   }
@@ -272,8 +309,9 @@ bool Run(const std::string& path, const tools::SimulateOptions& options, const s
     fmt::print("{:<32} {}\n", std::filesystem::path(path).stem().string(), simulated.error().message);
     return true;
   }
+  std::vector<Face> built = BuiltFaces(*plan, *simulated);
   Driven driven;
-  if (!Drive(folder, driven)) return false;
+  if (!Drive(folder, built, driven)) return false;
   const double odometry_m = Ate_m(driven.mapper.graph(), driven.places);
   const auto start = Clock::now();
   const PolishResult polished = PolishMap(driven.mapper.graph());
@@ -284,7 +322,7 @@ bool Run(const std::string& path, const tools::SimulateOptions& options, const s
   const double polish_ms = Since_ms(start);
   const SGraph& map = driven.mapper.graph();
   const Eigen::Isometry3d T_plan_map = StartAligned(map, driven.places);
-  WallScore walls = ScoreWalls(BuiltFaces(*plan, *simulated), MappedFaces(map, T_plan_map), map);
+  WallScore walls = ScoreWalls(built, MappedFaces(map, T_plan_map), map);
   PrintRow(std::filesystem::path(path).stem().string(), *simulated, odometry_m, Ate_m(map, driven.places), BestAte_m(map, driven.places), walls, driven, polish_ms);
   return true;
 }

@@ -204,6 +204,10 @@ void JointProblem::SetWallPrior(size_t wall, const Eigen::Vector2d& information)
   impl_->wall_weights[wall][kWallYaw] = std::sqrt(information.y());
 }
 
+void JointProblem::HoldWalls() {
+  for (auto& wall : impl_->state.walls) impl_->problem.SetParameterBlockConstant(wall.data());
+}
+
 JointProblem::Outcome JointProblem::Solve() {
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;

@@ -44,6 +44,8 @@ class JointProblem {
 
   // Inverse prior variances of (offset, yaw) of one wall.
   void SetWallPrior(size_t wall, const Eigen::Vector2d& information);
+  // All walls stay as the state has them.
+  void HoldWalls();
 
   struct Outcome {
     bool usable = false, converged = false;

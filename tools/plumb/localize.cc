@@ -184,6 +184,7 @@ RunInfo Describe(const LocalizeFlags& flags, const CLI::App& sub, const AGraph& 
   info.plan_path = fs::absolute(flags.plan).lexically_normal().string();
   info.plan_source = plan.source_path;
   info.plan_source_sha256 = plan.source_sha256;
+  info.mode = runtime::ModeName(flags.options.joint.mode);
   info.recording_path = fs::absolute(flags.recording).lexically_normal().string();
   info.options = OptionValues(sub);
   info.scans = results.verdicts.size();
@@ -308,6 +309,10 @@ void AddLocalize(CLI::App& app, Session& session) {
   sub->add_option("--tolerance-angle", flags->tolerance_deg, "walls turned by less are as planned, deg");
   sub->add_option("--false-discovery-rate", o.deviations.false_discovery_rate, "share of wrong ones among the walls reported");
   sub->add_option("--accept-probability", o.matcher.accept_probability, "a place in the plan is accepted from this posterior probability on");
+  sub->add_option_function<std::string>(
+         "--mode", [flags](const std::string& name) { flags->options.joint.mode = *runtime::ParseMode(name); },
+         "what is estimated: dis all; is no deviations; uc all walls weighted alike; so all at once, with no consensus on the place before")
+      ->check(CLI::IsMember(runtime::ModeNames()))->default_str(runtime::ModeName(o.joint.mode));
   sub->add_option("--map-voxel", flags->map_voxel_m, "map.ply keeps one point of each cube with this edge, m");
   sub->callback([flags, sub, &session] { session.status = RunLocalize(*flags, *sub, session); });
 }

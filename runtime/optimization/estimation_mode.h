@@ -24,7 +24,7 @@ struct EstimationSchedule {
   enum class WallPrior : uint8_t {
     kMixture,  // as tight as the wall is likely to stand as planned
     kUniform,  // the mixture's variance, for all walls
-    kHeld,     // at zero
+    kHeld,     // at zero, and every view of a wall counts in full however far off the plan it is
   };
   WallPrior prior = WallPrior::kMixture;
   bool consensus = true;  // the plan's place is found from the walls that agree before deviations are looked at (place_seed.h)

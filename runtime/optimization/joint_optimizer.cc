@@ -77,7 +77,6 @@ class Optimizer {
       Reseed(true);  // the first correction may turn the plan, and measurements are linear in the turn
     }
     JointProblem problem(map_, plan_, frames_, matches_, options_, state_);
-    if (held()) problem.HoldWalls();
     const int rounds = schedule_.alternate ? options_.em_rounds : 1;
     for (int round = 0; round < rounds; ++round) {
       if (round > 0 && schedule_.consensus) Reseed(false);

@@ -76,10 +76,12 @@ struct JointProblem::Impl {
   }
 
   void AddWalls(const std::vector<Match>& matches) {
+    const bool held = ScheduleOf(options.mode).prior == EstimationSchedule::WallPrior::kHeld;
     wall_weights.assign(state.walls.size(), {0, 0, 1 / options.tilt_sigma_rad, 1 / options.thickness_sigma_m});
     for (size_t w = 0; w < state.walls.size(); ++w) {
       problem.AddResidualBlock(Cost<PriorResidual<kNumWallParameters>, kNumWallParameters, kNumWallParameters>({{}, &wall_weights[w]}), nullptr,
                                state.walls[w].data());
+      if (held) problem.SetParameterBlockConstant(state.walls[w].data());
     }
     for (const Match& m : matches) {
       if (!m.plan_surface.valid()) continue;
@@ -93,7 +95,7 @@ struct JointProblem::Impl {
         if (m.IsMistaken(i)) continue;
         problem.AddResidualBlock(
             Cost<WallViewResidual, 3, kPoseSize, kPlaceSize, kNumWallParameters, 1>({PlaneView(o.stats, NoiseOf(options), observations.size()), face}),
-            &observation_loss, state.poses[o.keyframe].data(), state.place.data(), wall, &state.bias_m);
+            held ? nullptr : &observation_loss, state.poses[o.keyframe].data(), state.place.data(), wall, &state.bias_m);
       }
     }
   }
@@ -202,10 +204,6 @@ JointProblem::~JointProblem() = default;
 void JointProblem::SetWallPrior(size_t wall, const Eigen::Vector2d& information) {
   impl_->wall_weights[wall][kWallOffset] = std::sqrt(information.x());
   impl_->wall_weights[wall][kWallYaw] = std::sqrt(information.y());
-}
-
-void JointProblem::HoldWalls() {
-  for (auto& wall : impl_->state.walls) impl_->problem.SetParameterBlockConstant(wall.data());
 }
 
 JointProblem::Outcome JointProblem::Solve() {

@@ -37,15 +37,13 @@ struct JointCovariances {
 
 class JointProblem {
  public:
-  // Keeps references to all arguments. The state's walls, levels and planes are sized and levels and planes set here.
+  // Keeps references to all arguments. Where the mode of `options` estimates no deviations, walls stay as the state has them. The state's walls, levels and planes are sized and levels and planes set here.
   JointProblem(const SGraph& map, const AGraph& plan, const std::vector<WallFrame>& frames, const std::vector<Match>& matches,
                const JointOptions& options, JointState& state);
   ~JointProblem();
 
   // Inverse prior variances of (offset, yaw) of one wall.
   void SetWallPrior(size_t wall, const Eigen::Vector2d& information);
-  // All walls stay as the state has them.
-  void HoldWalls();
 
   struct Outcome {
     bool usable = false, converged = false;

@@ -18,7 +18,8 @@ void OnReportSignal(int) { g_report_requested = 1; }
 }  // namespace
 
 InterruptGuard::InterruptGuard() {
-  g_requested = g_report_requested = 0;
+  g_requested = 0;
+  g_report_requested = 0;
   std::signal(SIGUSR1, OnReportSignal);
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, OnSignal);
 }

@@ -13,7 +13,9 @@
 namespace plumb::runtime {
 namespace {
 
-constexpr double kPlanarPlaceSigma_m = 0.05;  // of a planar map's place by its rays
+// Of a map's place by its rays. Where few walls are seen and one or two of them deviate, walls alone would lay the plan now on these, now on those.
+// Half of the walls that a planar laser sees are furniture, which may agree with each other better than with the walls.
+constexpr double kPlaceSigma_m = 0.1, kPlanarPlaceSigma_m = 0.05;
 
 constexpr int kMaxHeld = 10;  // keyframes in a row: a robot that nobody looks for is never found
 
@@ -100,11 +102,8 @@ struct GraphEstimator::Impl {
 
   [[nodiscard]] JointOptions SolverOptions() const {
     JointOptions out = options.joint;
-    // Half of the walls that a planar laser sees are furniture, which may agree with each other better than with the walls. The rays know.
-    if (mapper.graph().planar) {
-      out.place = T_by_rays;
-      out.place_sigma_m = kPlanarPlaceSigma_m;
-    }
+    out.place = T_by_rays;
+    out.place_sigma_m = mapper.graph().planar ? kPlanarPlaceSigma_m : kPlaceSigma_m;
     return out;
   }
 

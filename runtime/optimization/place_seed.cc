@@ -52,7 +52,7 @@ class Seeder {
 
   Correction Solve() const {
     Correction best = Polish(Correction::Zero());
-    double best_cost = Cost(best) - kKeepMargin_nats;
+    double best_cost = Cost(best) - KeepMargin_nats();
     std::vector<Correction> proposals = Proposals();
     proposals.push_back(prior_);
     for (const Correction& proposal : proposals) {
@@ -67,6 +67,14 @@ class Seeder {
   }
 
  private:
+  // By how much another place must be better than the given one. Where that is known from more than these walls, a single wall does not overrule it:
+  // the margin is what one wall's word weighs, the odds of standing as planned against being anywhere else.
+  double KeepMargin_nats() const {
+    if (!options_.place) return kKeepMargin_nats;
+    const CouplingOptions& c = options_.coupling;
+    return std::log((1 - c.deviated_ratio) / (c.deviated_ratio / 3) * c.offset_tau1_m / c.offset_tau0_m);
+  }
+
   double TruncatedYaw(double yaw) const {
     double sum = 0;
     for (const Row& r : rows_) {

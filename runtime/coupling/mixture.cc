@@ -30,4 +30,10 @@ Eigen::Vector2d PriorInformation(const Responsibilities& r, const CouplingOption
   return {expected(r.offset, options.offset_tau0_m, options.offset_tau1_m), expected(r.yaw, options.yaw_tau0_rad, options.yaw_tau1_rad)};
 }
 
+Eigen::Vector2d UniformInformation(const CouplingOptions& options) {
+  const double wide = options.deviated_ratio * 2 / 3;  // of the three cases that deviate, two turn the wall and two move it
+  const auto variance = [&](double tau0, double tau1) { return (1 - wide) * tau0 * tau0 + wide * tau1 * tau1; };
+  return {1 / variance(options.offset_tau0_m, options.offset_tau1_m), 1 / variance(options.yaw_tau0_rad, options.yaw_tau1_rad)};
+}
+
 }  // namespace plumb::runtime

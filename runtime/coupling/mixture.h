@@ -20,4 +20,7 @@ struct Responsibilities {
 // Expected inverse prior variances (offset, yaw) given the responsibilities: what the M step weights the deviation with.
 [[nodiscard]] Eigen::Vector2d PriorInformation(const Responsibilities& r, const CouplingOptions& options);
 
+// The same for a wall of which nothing is known: inverse variances of the mixture as a whole.
+[[nodiscard]] Eigen::Vector2d UniformInformation(const CouplingOptions& options);
+
 }  // namespace plumb::runtime

@@ -1,6 +1,7 @@
 #include "runtime/localizer/graph_estimator.h"
 
 #include <algorithm>
+#include <atomic>
 #include <utility>
 
 #include "runtime/coupling/coupling.h"
@@ -13,10 +14,9 @@
 namespace plumb::runtime {
 namespace {
 
-// Walls seen while the robot turned are bent by motion that could not be taken out: by some centimetres and degrees.
-constexpr double kUntimedShare = 0.1, kUntimedFloor_m = 0.05, kUntimedFloor_rad = 0.05;
-
-constexpr double kPlanarPlaceSigma_m = 0.05;  // of a planar map's place by its rays
+// Of a map's place by its rays. Where few walls are seen and one or two of them deviate, walls alone would lay the plan now on these, now on those.
+// Half of the walls that a planar laser sees are furniture, which may agree with each other better than with the walls.
+constexpr double kPlaceSigma_m = 0.1, kPlanarPlaceSigma_m = 0.05;
 
 constexpr int kMaxHeld = 10;  // keyframes in a row: a robot that nobody looks for is never found
 
@@ -59,7 +59,6 @@ struct GraphEstimator::Impl {
   Eigen::Isometry3d T_by_rays = Eigen::Isometry3d::Identity();   // as the matcher found it
   bool ever_fixed = false;
   int odometry_map = 0;
-  size_t num_scans = 0, num_untimed = 0;  // with points
   size_t num_keyframes = 0;               // made of the present map so far, ...
   size_t solved_all_at = 0;               // ... and when everything was last solved
   bool solve_due = false, rescore_due = false;
@@ -72,6 +71,9 @@ struct GraphEstimator::Impl {
   Trajectory earlier_poses;
   std::vector<SurfaceDeviation> earlier_surfaces;
   std::vector<RoomDeviation> earlier_rooms;
+  bool news = false;  // solved since the last update
+  Verdict told_verdict = Verdict::kSearching;
+  std::atomic<bool> update_requested = false;
 
   [[nodiscard]] bool placed() const { return verdict == Verdict::kLocalized; }
 
@@ -107,33 +109,30 @@ struct GraphEstimator::Impl {
     Optimize(false);
   }
 
-  void StateNoise(JointOptions& solver) const {
-    if (num_untimed <= kUntimedShare * static_cast<double>(num_scans)) return;
-    solver.observation_floor_m = std::max(solver.observation_floor_m, kUntimedFloor_m);
-    solver.observation_floor_rad = std::max(solver.observation_floor_rad, kUntimedFloor_rad);
-  }
-
   [[nodiscard]] JointOptions SolverOptions() const {
     JointOptions out = options.joint;
-    // Half of the walls that a planar laser sees are furniture, which may agree with each other better than with the walls. The rays know.
-    if (mapper.graph().planar) {
-      out.place = T_by_rays;
-      out.place_sigma_m = kPlanarPlaceSigma_m;
-    }
-    StateNoise(out);
+    out.place = T_by_rays;
+    out.place_sigma_m = mapper.graph().planar ? kPlanarPlaceSigma_m : kPlaceSigma_m;
     return out;
+  }
+
+  [[nodiscard]] std::optional<JointResult> Solved(bool covariances) const {
+    const std::vector<Match> matches = MatchSurfaces(mapper.graph(), plan, T_plan_map, known, options.coupling);
+    if (matches.empty()) return std::nullopt;
+    JointOptions joint_options = SolverOptions();
+    joint_options.covariances = covariances;
+    JointResult result = OptimizeJointly(mapper.graph(), plan, matches, T_plan_map, joint_options);
+    if (result.T_map_kf.empty()) return std::nullopt;  // unusable; a solution short of its last digit is not
+    return result;
   }
 
   // Couples map and plan at the current estimate and solves everything jointly. Covariances cost half of the time and steer nothing:
   // they are left out until somebody asks.
   void Optimize(bool covariances) {
-    const std::vector<Match> matches = MatchSurfaces(mapper.graph(), plan, T_plan_map, known, options.coupling);
-    if (matches.empty()) return;
-    JointOptions joint_options = SolverOptions();
-    joint_options.covariances = covariances;
-    JointResult result = OptimizeJointly(mapper.graph(), plan, matches, T_plan_map, joint_options);
-    if (result.T_map_kf.empty()) return;  // unusable; a solution short of its last digit is not
-    joint = std::move(result);
+    std::optional<JointResult> result = Solved(covariances || tells_all());
+    if (!result) return;
+    joint = *std::move(result);
+    news = true;
     T_plan_map = joint.T_plan_map;
     for (const WallEstimate& wall : joint.walls) known[wall.wall.index()] = wall.deviation;
     std::vector<Keyframe>& keyframes = mapper.mutable_graph().keyframes;
@@ -144,9 +143,7 @@ struct GraphEstimator::Impl {
 
   // Without a plan the map can at least be made consistent by itself.
   void Polish() {
-    JointOptions polish_options = PolishOptions();
-    StateNoise(polish_options);
-    const PolishResult polished = PolishMap(mapper.graph(), polish_options);
+    const PolishResult polished = PolishMap(mapper.graph(), PolishOptions());
     if (!polished.usable) return;
     std::vector<Keyframe>& keyframes = mapper.mutable_graph().keyframes;
     for (size_t i = 0; i < keyframes.size(); ++i) keyframes[i].T_map_kf = polished.T_map_kf[i];
@@ -235,7 +232,7 @@ struct GraphEstimator::Impl {
     Optimize(true);
     const Trajectory poses = SmoothedPoses();
     earlier_poses.insert(earlier_poses.end(), poses.begin(), poses.end());
-    DeviationReport report = Deviations();
+    DeviationReport report = Deviations(joint);
     earlier_surfaces = std::move(report.surfaces);
     earlier_rooms = std::move(report.rooms);
   }
@@ -251,9 +248,22 @@ struct GraphEstimator::Impl {
     return out;
   }
 
-  [[nodiscard]] DeviationReport Deviations() const {
+  [[nodiscard]] bool tells_all() const { return options.on_update && options.update_every_solve; }
+
+  // After a scan, if there is something to tell or somebody wants to know.
+  void Tell(double stamp_s) {
+    const bool requested = update_requested.exchange(false), changed = std::exchange(news, false) || verdict != told_verdict;
+    if (!options.on_update || !(requested || (tells_all() && changed))) return;
+    told_verdict = verdict;
+    // The estimate at hand may be one without covariances, and without them nothing is judged.
+    std::optional<JointResult> fresh;
+    if (requested && placed() && !joint.covariances_exact) fresh = Solved(true);
+    options.on_update({stamp_s, verdict, T_plan_map, Deviations(fresh ? *fresh : joint), requested});
+  }
+
+  [[nodiscard]] DeviationReport Deviations(const JointResult& estimate) const {
     // What a planar laser takes for a wall may be the shelf in front of it: it is good enough to be found by, not to blame a wall for.
-    DeviationReport report = AssessDeviations(plan, mapper.graph().planar ? JointResult() : joint, options.deviations);
+    DeviationReport report = AssessDeviations(plan, mapper.graph().planar ? JointResult() : estimate, options.deviations);
     if (mapper.graph().planar) report.gauge = "A planar laser sees walls and furniture alike, on one line: walls are not judged.";
     for (size_t i = 0; i < earlier_surfaces.size(); ++i) {
       if (report.surfaces[i].status == SurfaceStatus::kUnobserved) report.surfaces[i] = earlier_surfaces[i];
@@ -272,17 +282,13 @@ GraphState GraphEstimator::Add(const RegisteredScan& scan, bool hold) {
   Impl& s = *impl_;
   const OdometryResult& o = scan.odometry;
   GraphState out;
-  if (scan.has_points) {
-    ++s.num_scans;
-    s.num_untimed += !o.timed;
-  }
   Stopwatch watch;
   if (scan.odometry_map != s.odometry_map) s.StartOver();
   s.odometry_map = out.odometry_map = scan.odometry_map;
   // Scans that registration could not place stay out of the map, which still lies where it did.
   if (o.ok || o.restarted) {
     s.mapper.HoldPoses(s.placed());
-    const bool grew = s.mapper.AddScan(o.deskewed, o.T_odom_lidar, o.planar ? std::optional(o.step_covariance) : std::nullopt);
+    const bool grew = s.mapper.AddScan(o.deskewed, o.T_odom_lidar, o.planar ? std::optional(o.step_covariance) : std::nullopt, o.timed);
     out.timing.push_back({"mapping", watch.Lap()});
     if (grew) out.solve_held = s.OnKeyframe(scan, hold, out.timing);
     s.Remember(scan.stamp_s, o.T_odom_lidar);
@@ -291,8 +297,11 @@ GraphState GraphEstimator::Add(const RegisteredScan& scan, bool hold) {
   out.hypotheses = s.last_try ? static_cast<int>(s.last_try->result.hypotheses.size()) : 0;
   out.last_try = s.last_try;
   if (s.ever_fixed) out.T_plan_odom = s.T_plan_map * s.mapper.T_map_odom();
+  s.Tell(scan.stamp_s);
   return out;
 }
+
+void GraphEstimator::RequestUpdate() { impl_->update_requested = true; }
 
 void GraphEstimator::Finish() {
   impl_->mapper.Flush();
@@ -308,7 +317,7 @@ Eigen::Isometry3d GraphEstimator::T_plan_map() const { return impl_->T_plan_map;
 const SGraph& GraphEstimator::map() const { return impl_->mapper.graph(); }
 const MatchTry* GraphEstimator::last_try() const { return impl_->last_try.get(); }
 const JointResult& GraphEstimator::estimate() const { return impl_->joint; }
-DeviationReport GraphEstimator::Deviations() const { return impl_->Deviations(); }
+DeviationReport GraphEstimator::Deviations() const { return impl_->Deviations(impl_->joint); }
 Trajectory GraphEstimator::SmoothedPoses() const { return impl_->SmoothedPoses(); }
 const Trajectory& GraphEstimator::earlier_poses() const { return impl_->earlier_poses; }
 

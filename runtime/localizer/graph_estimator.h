@@ -8,15 +8,13 @@
 #include <vector>
 
 #include "runtime/deviations/deviations.h"
+#include "runtime/localizer/estimate_update.h"
 #include "runtime/localizer/localizer_options.h"
 #include "runtime/mapping/sgraph.h"
 #include "runtime/matching/matcher.h"
 #include "runtime/optimization/joint_optimizer.h"
 
 namespace plumb::runtime {
-
-enum class Verdict : uint8_t { kSearching, kAmbiguous, kLocalized, kLost };
-[[nodiscard]] const char* VerdictName(Verdict verdict);  // searching | ambiguous | localized | lost
 
 struct StageTime {
   std::string stage;  // odometry, mapping, matching, optimization
@@ -66,6 +64,8 @@ class GraphEstimator {
   [[nodiscard]] GraphState Add(const RegisteredScan& scan, bool hold);
   // A final solve over everything, with covariances.
   void Finish();
+  // LocalizerOptions::on_update is called at the end of the next Add(), with covariances; nothing else changes by it. From any thread.
+  void RequestUpdate();
 
   [[nodiscard]] bool placed() const;  // the present map lies in the plan
   [[nodiscard]] Eigen::Isometry3d T_plan_map() const;

@@ -45,6 +45,9 @@ class Localizer {
   // After the last scan (or whenever asked, with no step running): a final solve over everything.
   void Finish() { graph_.Finish(); }
 
+  // See GraphEstimator::RequestUpdate. From any thread.
+  void RequestUpdate() { graph_.RequestUpdate(); }
+
   // Where the present map lies in the plan; none while it has no place there. A robot that sees nothing for a moment is lost, its map is not.
   [[nodiscard]] std::optional<Eigen::Isometry3d> T_plan_map() const;
   [[nodiscard]] const SGraph& map() const { return graph_.map(); }  // the present one

@@ -5,6 +5,7 @@
 
 #include "runtime/coupling/coupling.h"
 #include "runtime/deviations/deviations.h"
+#include "runtime/localizer/estimate_update.h"
 #include "runtime/mapping/mapper_options.h"
 #include "runtime/matching/graph/graph_matcher.h"
 #include "runtime/matching/matcher.h"
@@ -34,6 +35,8 @@ struct LocalizerOptions {
   CouplingOptions coupling;
   JointOptions joint;
   DeviationOptions deviations;
+  UpdateSink on_update;              // updates while driving: those asked for and, ...
+  bool update_every_solve = false;   // ... of itself, after every solve of everything and when the verdict changes. Doubles the time of these solves
   [[nodiscard]] std::string Check() const;  // empty, or the field, its value and the rule
 };
 

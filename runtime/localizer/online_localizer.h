@@ -39,6 +39,9 @@ class OnlineLocalizer {
   // for a final solve).
   [[nodiscard]] Localizer& Drain();
 
+  // See GraphEstimator::RequestUpdate.
+  void RequestUpdate() { localizer_.RequestUpdate(); }
+
   [[nodiscard]] OnlineCounts counts() const;
   // Times of the graph's stages since the last call, by the stamp of the scan that they were spent on.
   struct StampedTime {

@@ -1,5 +1,6 @@
 #include "runtime/mapping/keyframe_window.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "runtime/odometry/scan_preparation.h"
@@ -28,8 +29,9 @@ SurfelMapOptions WindowSurfels(const MapperOptions& options) {
 KeyframeWindow::KeyframeWindow(const MapperOptions& options, double stamp_s, const Eigen::Isometry3d& T_odom_kf)
     : options_(options), stamp_s_(stamp_s), T_odom_kf_(T_odom_kf), surfels_(WindowSurfels(options)) {}
 
-void KeyframeWindow::Add(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar, bool planar) {
+void KeyframeWindow::Add(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar, bool planar, const Smear& smear) {
   planar_ = planar;
+  smear_ = {std::max(smear_.m, smear.m), std::max(smear_.rad, smear.rad)};
   const PreparedScan prepared = PrepareScan(deskewed, kSpacing_m, options_.min_range_m, options_.max_range_m);
   const Eigen::Isometry3d T_kf_lidar = T_odom_kf_.inverse() * T_odom_lidar;
   View view;

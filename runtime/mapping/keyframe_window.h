@@ -17,13 +17,18 @@ struct View {
   std::vector<Eigen::Vector3f> points;               // keyframe frame
 };
 
+// Keyframe::smear_m, smear_rad.
+struct Smear {
+  double m = 0, rad = 0;
+};
+
 class KeyframeWindow {
  public:
   // Opens at the lidar's pose T_odom_kf, which becomes the keyframe's.
   KeyframeWindow(const MapperOptions& options, double stamp_s, const Eigen::Isometry3d& T_odom_kf);
 
   // `planar`: of a planar laser, whose scans make no surfels.
-  void Add(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar, bool planar);
+  void Add(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar, bool planar, const Smear& smear = {});
 
   [[nodiscard]] double stamp_s() const { return stamp_s_; }
   [[nodiscard]] const Eigen::Isometry3d& T_odom_kf() const { return T_odom_kf_; }
@@ -31,6 +36,7 @@ class KeyframeWindow {
   [[nodiscard]] const SurfelMap& surfels() const { return surfels_; }
 
   [[nodiscard]] bool planar() const { return planar_; }
+  [[nodiscard]] const Smear& smear() const { return smear_; }  // the largest of its scans'
 
   // At most one point per voxel and max_keyframe_points, keyframe frame.
   [[nodiscard]] std::vector<Eigen::Vector3f> ThinnedPoints() const;
@@ -43,6 +49,7 @@ class KeyframeWindow {
   size_t num_points_ = 0;
   SurfelMap surfels_;
   bool planar_ = false;
+  Smear smear_;
 };
 
 }  // namespace plumb::runtime

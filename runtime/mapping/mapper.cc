@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -14,6 +15,7 @@ namespace plumb::runtime {
 namespace {
 
 constexpr double kPointShare = 2.0 / 3.0;    // of a point's noise in the spread about a wall
+constexpr double kUntimedSweep_s = 0.1;      // what a sweep without times is taken to last: that of most lidars
 constexpr double kPlanarSpacing_m = 0.04;    // of the points that planar scans are matched by
 constexpr double kSettled_m = 0.005, kSettled_rad = 0.001;  // a solve that moves no keyframe by more changes nothing
 constexpr double kStandingStill_m = 0.05, kStandingStill_rad = 0.026;  // a keyframe this close to the last one tells nothing new
@@ -55,13 +57,22 @@ std::string MapperOptions::Check() const {
 
 Mapper::Mapper(const MapperOptions& options) : options_(options), loops_(kPointShare * options.plane_sigma_m) {}
 
-bool Mapper::AddScan(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar, const std::optional<Eigen::Matrix3d>& planar_step) {
+bool Mapper::AddScan(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar, const std::optional<Eigen::Matrix3d>& planar_step, bool timed) {
   const bool grown = window_ && WindowIsFull(deskewed.stamp_s, T_odom_lidar) && CloseWindow();
   if (planar_step) loops_.Move(Leveled(T_odom_lidar).pose, *planar_step);
   if (!window_ && planar_step) loops_.Open();
   if (!window_) window_.emplace(options_, deskewed.stamp_s, T_odom_lidar);
-  window_->Add(deskewed, T_odom_lidar, planar_step.has_value());
+  window_->Add(deskewed, T_odom_lidar, planar_step.has_value(), timed ? Smear() : SmearOf(deskewed.stamp_s, T_odom_lidar));
+  last_scan_ = LastScan{deskewed.stamp_s, T_odom_lidar};
   return grown;
+}
+
+// Half of what the sensor moved during its sweep, at the speed since the last scan.
+Smear Mapper::SmearOf(double stamp_s, const Eigen::Isometry3d& T_odom_lidar) const {
+  if (!last_scan_) return {};
+  const Distance moved = Between(last_scan_->T_odom_lidar, T_odom_lidar);
+  const double half = 0.5 * std::min(1.0, kUntimedSweep_s / (stamp_s - last_scan_->stamp_s));
+  return {half * moved.m, half * moved.rad};
 }
 
 bool Mapper::Flush() { return window_ && CloseWindow(); }
@@ -86,6 +97,8 @@ bool Mapper::CloseWindow() {
   keyframe.T_odom_kf = window.T_odom_kf();
   keyframe.T_map_kf = T_map_odom_ * window.T_odom_kf();
   keyframe.points = window.ThinnedPoints();
+  keyframe.smear_m = window.smear().m;
+  keyframe.smear_rad = window.smear().rad;
   if (keyframe.points.empty()) return false;
   if (!graph_.keyframes.empty()) {
     const Keyframe& last = graph_.keyframes.back();

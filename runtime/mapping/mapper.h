@@ -24,7 +24,8 @@ class Mapper {
   // Adds one deskewed scan, points in the lidar frame at its stamp. True if it closed a keyframe, i.e. the graph has grown.
   // `planar_step`: of a planar laser (OdometryResult::planar), the covariance of (x, y, yaw) of the motion since the last scan. Its scans see walls
   // only, as lines (planar_segmentation.h), and the loops they make are closed here (loop_closure.h).
-  bool AddScan(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar, const std::optional<Eigen::Matrix3d>& planar_step = std::nullopt);
+  // `timed`: its points were put where the sensor was when each was measured; else the keyframe is smeared by the motion meanwhile.
+  bool AddScan(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar, const std::optional<Eigen::Matrix3d>& planar_step = std::nullopt, bool timed = true);
   // While the plan holds the keyframes' poses, loops are found but move nothing: they know nothing of the plan and would pull the map off it.
   void HoldPoses(bool hold) { poses_held_ = hold; }
   // Makes a keyframe of what AddScan() has gathered since the last one, at a recording's end. True if the graph has grown.
@@ -43,6 +44,7 @@ class Mapper {
  private:
   [[nodiscard]] bool WindowIsFull(double stamp_s, const Eigen::Isometry3d& T_odom_lidar) const;
   bool CloseWindow();
+  [[nodiscard]] Smear SmearOf(double stamp_s, const Eigen::Isometry3d& T_odom_lidar) const;
   void AddSegment(const Segment& segment, const Keyframe& keyframe);
   void Empty(size_t i);
   void CloseLoops(const KeyframeWindow& window);
@@ -54,6 +56,11 @@ class Mapper {
   Eigen::Isometry3d T_map_odom_ = Eigen::Isometry3d::Identity();
   std::vector<SurfaceTrack> tracks_;  // of each surface
   std::optional<KeyframeWindow> window_;
+  struct LastScan {
+    double stamp_s = 0;
+    Eigen::Isometry3d T_odom_lidar = Eigen::Isometry3d::Identity();
+  };
+  std::optional<LastScan> last_scan_;
   LoopCloser loops_;
   bool poses_held_ = false;
 };

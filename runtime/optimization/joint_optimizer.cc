@@ -39,11 +39,21 @@ std::string CheckInput(const SGraph& map, const AGraph& plan, const std::vector<
   return {};
 }
 
+const char* GaugeRule(EstimationMode mode) {
+  switch (mode) {
+    case EstimationMode::kDis: break;
+    case EstimationMode::kIs: return "The plan is laid where all seen walls together fit it best, and no deviations are estimated (mode is)";
+    case EstimationMode::kUc: return "The plan is laid where all seen walls, deviating or not, fit it best (mode uc)";
+    case EstimationMode::kSo: return "The plan is laid by one optimization from where it was first put, with no consensus before (mode so)";
+  }
+  return "The plan is laid where the deviation prior is most probable, which is where most walls stand as planned";
+}
+
 class Optimizer {
  public:
   Optimizer(const SGraph& map, const AGraph& plan, const std::vector<WallFrame>& frames, const std::vector<Match>& matches,
             const Eigen::Isometry3d& T_plan_map, const JointOptions& options)
-      : map_(map), plan_(plan), frames_(frames), options_(options) {
+      : map_(map), plan_(plan), frames_(frames), options_(options), schedule_(ScheduleOf(options.mode)) {
     std::copy_if(matches.begin(), matches.end(), std::back_inserter(matches_),
                  [&](const Match& m) { return !map.surfaces[m.map_surface].observations.empty(); });
     for (const Keyframe& k : map.keyframes) state_.poses.push_back(PoseBlock(k.T_map_kf));
@@ -55,17 +65,21 @@ class Optimizer {
     state_.wall_ids.erase(std::unique(state_.wall_ids.begin(), state_.wall_ids.end()), state_.wall_ids.end());
     state_.walls.assign(state_.wall_ids.size(), {});
     responsibilities_.assign(state_.wall_ids.size(), {});
+    priors_.assign(state_.wall_ids.size(), Eigen::Vector2d::Zero());
   }
 
   JointResult Run() {
     JointResult result;
     SeedHeight();
     Measure();
-    Reseed(true);
-    Reseed(true);  // the first correction may turn the plan, and measurements are linear in the turn
+    if (schedule_.consensus) {
+      Reseed(true);
+      Reseed(true);  // the first correction may turn the plan, and measurements are linear in the turn
+    }
     JointProblem problem(map_, plan_, frames_, matches_, options_, state_);
-    for (int round = 0; round < options_.em_rounds; ++round) {
-      if (round > 0) Reseed(false);
+    const int rounds = schedule_.alternate ? options_.em_rounds : 1;
+    for (int round = 0; round < rounds; ++round) {
+      if (round > 0 && schedule_.consensus) Reseed(false);
       const double change = ExpectationStep(problem);
       if (round > 1 && change < kSettled) break;
       const JointProblem::Outcome outcome = problem.Solve();
@@ -82,6 +96,8 @@ class Optimizer {
   }
 
  private:
+  [[nodiscard]] bool held() const { return schedule_.prior == EstimationSchedule::WallPrior::kHeld; }
+
   void SeedHeight() { state_.place[2] -= ConsensusHeight(LevelVotes(map_, plan_, matches_, Poses(state_), Place()), options_.level_sigma_m); }
 
   void Measure() { measurements_ = MeasureWalls(map_, plan_, frames_, matches_, Poses(state_), Place(), options_); }
@@ -105,11 +121,14 @@ class Optimizer {
   // Which component each wall belongs to; sets the priors accordingly. Returns the largest change.
   double ExpectationStep(JointProblem& problem) {
     double change = 0;
+    if (held()) return change;
     for (size_t w = 0; w < measurements_.size(); ++w) {
       const Responsibilities r = AssessMixture(measurements_[w].At(state_.bias_m), measurements_[w].covariance, options_.coupling);
       change = std::max({change, std::abs(r.offset - responsibilities_[w].offset), std::abs(r.yaw - responsibilities_[w].yaw)});
       responsibilities_[w] = r;
-      problem.SetWallPrior(w, PriorInformation(r, options_.coupling));
+      const bool uniform = schedule_.prior == EstimationSchedule::WallPrior::kUniform;
+      priors_[w] = uniform ? UniformInformation(options_.coupling) : PriorInformation(r, options_.coupling);
+      problem.SetWallPrior(w, priors_[w]);
     }
     return change;
   }
@@ -148,10 +167,11 @@ class Optimizer {
     }
     e.cov_all = covariances->walls[w];
     e.cov = e.cov_all.topLeftCorner<2, 2>();
+    if (held()) return e;
     // Take the prior out again: what all the data say about this wall, with poses and place marginalised, decides its responsibility.
     const Eigen::Matrix2d posterior = e.cov.inverse();
     Eigen::Matrix2d data = posterior;
-    data.diagonal() -= PriorInformation(responsibilities_[w], options_.coupling);
+    data.diagonal() -= priors_[w];
     const Eigen::Vector2d least(1e-2 / (options_.coupling.offset_tau1_m * options_.coupling.offset_tau1_m),
                                 1e-2 / (options_.coupling.yaw_tau1_rad * options_.coupling.yaw_tau1_rad));
     data.diagonal() += least;  // a wall that was hardly seen has next to no information of its own, never less
@@ -182,9 +202,7 @@ class Optimizer {
 
   std::string GaugeText(const JointResult& result) const {
     const auto deviated = std::count_if(result.walls.begin(), result.walls.end(), [](const WallEstimate& w) { return w.p_deviated > 0.5; });
-    std::string text = fmt::format(
-        "The plan is laid where the deviation prior is most probable, which is where most walls stand as planned: {} of {} seen walls deviate.",
-        deviated, result.walls.size());
+    std::string text = fmt::format("{}: {} of {} seen walls deviate.", GaugeRule(options_.mode), deviated, result.walls.size());
     for (const DirectionSupport& d : result.directions) {
       if (!d.ambiguous()) continue;
       text += fmt::format(" Along {:.0f} deg the frame is ambiguous: {} wall(s) agree with it, {} with another.",
@@ -200,9 +218,11 @@ class Optimizer {
   const std::vector<WallFrame>& frames_;
   std::vector<Match> matches_;
   const JointOptions& options_;
+  const EstimationSchedule schedule_;
   JointState state_;
   std::vector<WallMeasurement> measurements_;
   std::vector<Responsibilities> responsibilities_;
+  std::vector<Eigen::Vector2d> priors_;  // per wall, as SetWallPrior has them
 };
 
 }  // namespace

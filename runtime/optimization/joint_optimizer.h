@@ -8,11 +8,13 @@
 
 #include "runtime/coupling/coupling.h"
 #include "runtime/mapping/sgraph.h"
+#include "runtime/optimization/estimation_mode.h"
 #include "schema/agraph.h"
 
 namespace plumb::runtime {
 
 struct JointOptions {
+  EstimationMode mode = EstimationMode::kDis;
   double point_sigma_m = 0.03;         // range noise ...
   double correlation = 10.0;           // ... inflated by sqrt of this: points of one surface share their errors
   double observation_floor_m = 0.005;  // what one keyframe's view of a surface is good for, however many points it has: offset ...
@@ -93,7 +95,7 @@ struct JointResult {
 
 // Solves from `T_plan_map` (upright: yaw and translation) and the map's current poses; writing T_map_kf and T_plan_map back makes the next
 // call a warm start. The plan's place is re-seeded from wall-level measurements each time, so that an early wrong choice of which walls
-// deviate is undone once more walls speak against it; `T_plan_map` is kept in a tie.
+// deviate is undone once more walls speak against it; `T_plan_map` is kept in a tie. `options.mode` leaves out parts of this.
 // Deterministic. 200 keyframes, 60 surfaces, 1000 observations: about 0.1 s on one core.
 [[nodiscard]] JointResult OptimizeJointly(const SGraph& map, const AGraph& plan, const std::vector<Match>& matches,
                                           const Eigen::Isometry3d& T_plan_map, const JointOptions& options = {});

@@ -76,10 +76,12 @@ struct JointProblem::Impl {
   }
 
   void AddWalls(const std::vector<Match>& matches) {
+    const bool held = ScheduleOf(options.mode).prior == EstimationSchedule::WallPrior::kHeld;
     wall_weights.assign(state.walls.size(), {0, 0, 1 / options.tilt_sigma_rad, 1 / options.thickness_sigma_m});
     for (size_t w = 0; w < state.walls.size(); ++w) {
       problem.AddResidualBlock(Cost<PriorResidual<kNumWallParameters>, kNumWallParameters, kNumWallParameters>({{}, &wall_weights[w]}), nullptr,
                                state.walls[w].data());
+      if (held) problem.SetParameterBlockConstant(state.walls[w].data());
     }
     for (const Match& m : matches) {
       if (!m.plan_surface.valid()) continue;
@@ -92,8 +94,8 @@ struct JointProblem::Impl {
         const Observation& o = observations[i];
         if (m.IsMistaken(i)) continue;
         problem.AddResidualBlock(
-            Cost<WallViewResidual, 3, kPoseSize, kPlaceSize, kNumWallParameters, 1>({PlaneView(o.stats, NoiseOf(options), observations.size()), face}),
-            &observation_loss, state.poses[o.keyframe].data(), state.place.data(), wall, &state.bias_m);
+            Cost<WallViewResidual, 3, kPoseSize, kPlaceSize, kNumWallParameters, 1>({PlaneView(o.stats, NoiseOf(options, map.keyframes[o.keyframe]), observations.size()), face}),
+            held ? nullptr : &observation_loss, state.poses[o.keyframe].data(), state.place.data(), wall, &state.bias_m);
       }
     }
   }
@@ -110,7 +112,7 @@ struct JointProblem::Impl {
       problem.AddResidualBlock(Cost<PriorResidual<1>, 1, 1>({{0.0}, &level_weight}), level_losses.back().get(), level);
       const std::vector<Observation>& observations = map.surfaces[matches[vote.match].map_surface].observations;
       for (const Observation& o : observations) {
-        const LevelViewResidual residual{PlaneView(o.stats, NoiseOf(options), observations.size()), vote.planned_z_m, vote.floor ? 1.0 : -1.0};
+        const LevelViewResidual residual{PlaneView(o.stats, NoiseOf(options, map.keyframes[o.keyframe]), observations.size()), vote.planned_z_m, vote.floor ? 1.0 : -1.0};
         problem.AddResidualBlock(Cost<LevelViewResidual, 3, kPoseSize, kPlaceSize, 1>(residual), &observation_loss,
                                  state.poses[o.keyframe].data(), state.place.data(), level);
       }
@@ -130,7 +132,7 @@ struct JointProblem::Impl {
       problem.AddParameterBlock(plane, kPlaneSize, &plane_manifold);
       problem.AddResidualBlock(Cost<PriorResidual<kPlaneSize>, kPlaneSize, kPlaneSize>({state.planes.back(), &kPlaneWeight}), nullptr, plane);
       for (const Observation& o : surface.observations) {
-        problem.AddResidualBlock(Cost<FreeViewResidual, 3, kPoseSize, kPlaneSize>({PlaneView(o.stats, NoiseOf(options), surface.observations.size())}), &observation_loss,
+        problem.AddResidualBlock(Cost<FreeViewResidual, 3, kPoseSize, kPlaneSize>({PlaneView(o.stats, NoiseOf(options, map.keyframes[o.keyframe]), surface.observations.size())}), &observation_loss,
                                  state.poses[o.keyframe].data(), plane);
       }
     }

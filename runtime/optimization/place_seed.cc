@@ -20,6 +20,7 @@ constexpr double kMinSine = 0.3;
 constexpr size_t kMaxProposers = 60, kMaxPolished = 12;
 constexpr double kDistinct_m = 0.02;
 constexpr double kKeepMargin_nats = 1.0;
+constexpr double kSamePlace_m = 0.05;
 constexpr std::array<double, 8> kToleranceSchedule_m{0.03, 0.02, 0.01, 0, 0, 0, 0, 0};
 
 struct Row {
@@ -51,8 +52,10 @@ class Seeder {
   Seeder(std::vector<Row> rows, const Correction& prior, const JointOptions& options) : rows_(std::move(rows)), prior_(prior), options_(options) {}
 
   Correction Solve() const {
+    // The given place, polished: unless that leads elsewhere, as it does where one deviated wall is nearly all that is seen along its normal.
     Correction best = Polish(Correction::Zero());
-    double best_cost = Cost(best) - kKeepMargin_nats;
+    if (options_.place && best.head<2>().norm() > kSamePlace_m) best = Correction::Zero();
+    double best_cost = Cost(best) - KeepMargin_nats();
     std::vector<Correction> proposals = Proposals();
     proposals.push_back(prior_);
     for (const Correction& proposal : proposals) {
@@ -67,6 +70,14 @@ class Seeder {
   }
 
  private:
+  // By how much another place must be better than the given one. Where that is known from more than these walls, a single wall does not overrule it:
+  // the margin is what one wall's word weighs, the odds of standing as planned against being anywhere else.
+  double KeepMargin_nats() const {
+    if (!options_.place) return kKeepMargin_nats;
+    const CouplingOptions& c = options_.coupling;
+    return std::log((1 - c.deviated_ratio) / (c.deviated_ratio / 3) * c.offset_tau1_m / c.offset_tau0_m);
+  }
+
   double TruncatedYaw(double yaw) const {
     double sum = 0;
     for (const Row& r : rows_) {

@@ -54,8 +54,16 @@ WallMeasurement Split(WallId wall, const NormalEquations& ne) {
 
 }  // namespace
 
+ViewNoise NoiseOf(const JointOptions& options, const Keyframe& seen_from) {
+  ViewNoise noise = NoiseOf(options);
+  noise.smear_m = seen_from.smear_m;
+  noise.smear_rad = seen_from.smear_rad;
+  return noise;
+}
+
 ViewNoise NoiseOf(const JointOptions& options) {
-  return {options.point_sigma_m, options.correlation, options.observation_floor_m, options.observation_floor_rad, options.edge_m2};
+  return {.point_sigma_m = options.point_sigma_m, .correlation = options.correlation, .floor_m = options.observation_floor_m,
+          .floor_rad = options.observation_floor_rad, .edge_m2 = options.edge_m2};
 }
 
 std::vector<WallMeasurement> MeasureWalls(const SGraph& map, const AGraph& plan, const std::vector<WallFrame>& frames,
@@ -70,7 +78,7 @@ std::vector<WallMeasurement> MeasureWalls(const SGraph& map, const AGraph& plan,
     for (size_t i = 0; i < observations.size(); ++i) {
       const Observation& o = observations[i];
       if (match.IsMistaken(i)) continue;
-      AddView(PlaneView(o.stats, NoiseOf(options), observations.size()), T_plan_map * T_map_kf[o.keyframe], face,
+      AddView(PlaneView(o.stats, NoiseOf(options, map.keyframes[o.keyframe]), observations.size()), T_plan_map * T_map_kf[o.keyframe], face,
               walls.try_emplace(surface.wall, options.thickness_sigma_m).first->second);
     }
   }

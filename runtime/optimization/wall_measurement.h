@@ -20,7 +20,8 @@ struct WallMeasurement {
   [[nodiscard]] Eigen::Vector2d At(double bias_m) const { return deviation + bias_m * bias_gain; }
 };
 
-[[nodiscard]] ViewNoise NoiseOf(const JointOptions& options);
+[[nodiscard]] ViewNoise NoiseOf(const JointOptions& options, const Keyframe& seen_from);
+[[nodiscard]] ViewNoise NoiseOf(const JointOptions& options);  // of a view from no keyframe in particular
 
 // One per wall that `matches` sees, by wall id. Linear least squares about the planned place (second order in yaw). T_map_kf per keyframe.
 [[nodiscard]] std::vector<WallMeasurement> MeasureWalls(const SGraph& map, const AGraph& plan, const std::vector<WallFrame>& frames,

@@ -69,7 +69,7 @@ class Window {
     size_t num_earlier = 0;
     for (const Observation& o : observations) {
       if (o.keyframe >= first_) {
-        AddView({PlaneView(o.stats, NoiseOf(options_), observations.size())}, &observation_loss_, poses_[o.keyframe - first_].data(), plane);
+        AddView({PlaneView(o.stats, NoiseOf(options_, map_.keyframes[o.keyframe]), observations.size())}, &observation_loss_, poses_[o.keyframe - first_].data(), plane);
         continue;
       }
       earlier.Add(o.stats.Transformed(map_.keyframes[o.keyframe].T_map_kf));

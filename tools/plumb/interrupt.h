@@ -1,9 +1,10 @@
-// Ctrl-C while a long job runs: it ends early and writes what it has. A second one ends the program at once.
+// Signals while a long job runs. Ctrl-C: it ends early and writes what it has; a second one ends the program at once. SIGUSR1: it writes what it has
+// and goes on.
 #pragma once
 
 namespace plumb::tools {
 
-// While one lives, SIGINT and SIGTERM only set a flag. One at a time.
+// While one lives, SIGINT, SIGTERM and SIGUSR1 only set a flag. One at a time.
 class InterruptGuard {
  public:
   InterruptGuard();
@@ -12,6 +13,8 @@ class InterruptGuard {
   InterruptGuard& operator=(const InterruptGuard&) = delete;
 
   [[nodiscard]] bool requested() const;
+  // SIGUSR1 since the last call.
+  [[nodiscard]] bool TakeReportRequest();
 };
 
 }  // namespace plumb::tools

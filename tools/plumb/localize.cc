@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <numbers>
 #include <set>
@@ -16,6 +17,7 @@
 #include "tools/plumb/config.h"
 #include "tools/plumb/interrupt.h"
 #include "tools/plumb/match_rows.h"
+#include "tools/plumb/updates.h"
 #include "tools/run/ply.h"
 #include "tools/run/run_folder.h"
 #include "tools/run/run_info.h"
@@ -28,7 +30,7 @@ namespace fs = std::filesystem;
 constexpr const char *kWallMatcher = "wall", *kGraphMatcher = "graph";
 
 struct LocalizeFlags {
-  std::string plan, recording, output;
+  std::string plan, recording, output, updates;
   bool no_odometry = false;
   double tolerance_deg = 0.5;
   std::vector<double> near_m;
@@ -52,8 +54,9 @@ struct Results {
 // Takes in what a replay gives, scan by scan.
 class Collector {
  public:
-  Collector(const AGraph& plan, size_t num_scans, bool paced, Console& console)
-      : plan_(plan), num_scans_(num_scans), paced_(paced), console_(console) {}
+  // `request_update`: called where the user asks what is known.
+  Collector(const AGraph& plan, size_t num_scans, bool paced, Console& console, std::function<void()> request_update)
+      : plan_(plan), num_scans_(num_scans), paced_(paced), console_(console), request_update_(std::move(request_update)) {}
 
   // False once the user has had enough.
   bool Add(const runtime::ReplayedScan& scan) {
@@ -61,6 +64,7 @@ class Collector {
       results_.interrupted = true;
       return false;
     }
+    if (interrupt_.TakeReportRequest()) request_update_();
     if (scan.unreadable) {  // one bad file is no reason to lose hours of good ones
       console_.Error(scan.unreadable->message + "; skipped");
       last_error_ = *scan.unreadable;
@@ -100,7 +104,8 @@ class Collector {
   size_t num_scans_;
   bool paced_;
   Console& console_;
-  const InterruptGuard interrupt_;
+  std::function<void()> request_update_;
+  InterruptGuard interrupt_;
   Error last_error_{ErrorCode::kBadScan, "no scan lies between --start and the end of the recording"};
   std::vector<double> latencies_ms_;
   Results results_;
@@ -118,7 +123,8 @@ class Replayer {
   }
 
   Expected<Results> Run(const runtime::Recording& recording, Console& console) {
-    Collector collector(plan_, recording.size(), online_.has_value(), console);
+    const auto request_update = [this] { offline_ ? offline_->RequestUpdate() : online_->RequestUpdate(); };
+    Collector collector(plan_, recording.size(), online_.has_value(), console, request_update);
     const auto sink = [&](const runtime::ReplayedScan& scan) { return collector.Add(scan); };
     if (offline_) {
       runtime::ReplayOffline(recording, flags_.replay, *offline_, sink);
@@ -196,6 +202,7 @@ RunInfo Describe(const LocalizeFlags& flags, const CLI::App& sub, const AGraph& 
   info.plan_path = fs::absolute(flags.plan).lexically_normal().string();
   info.plan_source = plan.source_path;
   info.plan_source_sha256 = plan.source_sha256;
+  info.mode = runtime::ModeName(flags.options.joint.mode);
   info.recording_path = fs::absolute(flags.recording).lexically_normal().string();
   info.options = OptionValues(sub);
   info.scans = results.verdicts.size();
@@ -302,8 +309,14 @@ Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
   if (!recording) return session.Fail(recording.error());
   if (const auto ready = PrepareOutput(flags.output); !ready) return session.Fail(ready.error());
 
+  UpdateWriter updates(*plan, flags.updates, (fs::path(flags.output) / "deviations.json").string());
+  if (const auto ready = updates.Open(); !ready) return session.Fail(ready.error());
+  flags.options.on_update = [&updates](const runtime::EstimateUpdate& update) { updates.Write(update); };
+  flags.options.update_every_solve = !flags.updates.empty();
+
   Replayer replayer(*plan, flags);
   const auto results = replayer.Run(*recording, session.console);
+  if (const auto written = updates.Close(); !written) return session.Fail(written.error());
   if (!results) return session.Fail(results.error());
   runtime::Localizer& localizer = replayer.localizer();
   localizer.Finish();
@@ -361,6 +374,12 @@ void AddLocalize(CLI::App& app, Session& session) {
   sub->add_option("--tolerance-angle", flags->tolerance_deg, "walls turned by less are as planned, deg");
   sub->add_option("--false-discovery-rate", o.deviations.false_discovery_rate, "share of wrong ones among the walls reported");
   sub->add_option("--accept-probability", o.matcher.accept_probability, "a place in the plan is accepted from this posterior probability on");
+  sub->add_option_function<std::string>(
+         "--mode", [flags](const std::string& name) { flags->options.joint.mode = *runtime::ParseMode(name); },
+         "what is estimated: dis all; is no deviations; uc all walls weighted alike; so all at once, with no consensus on the place before")
+      ->check(CLI::IsMember(runtime::ModeNames()))->default_str(runtime::ModeName(o.joint.mode));
+  sub->add_option("--updates", flags->updates,
+                  "write a line of JSON here after every solve while driving: t, verdict, T_plan_map, changed surfaces. SIGUSR1 writes deviations.json as it is then");
   sub->add_option("--map-voxel", flags->map_voxel_m, "map.ply keeps one point of each cube with this edge, m");
   sub->callback([flags, sub, &session] { session.status = RunLocalize(*flags, *sub, session); });
 }

@@ -28,6 +28,7 @@ std::string RunInfoToJson(const RunInfo& info) {
   out["plumb"] = info.plumb_version;
   out["plan"] = {{"path", info.plan_path}, {"source", info.plan_source}, {"source_sha256", info.plan_source_sha256}};
   out["recording"] = info.recording_path;
+  out["mode"] = info.mode;
   out["options"] = Json::object();
   for (const Option& o : info.options) out["options"][o.name] = o.value;
   Json summary;
@@ -65,6 +66,7 @@ Expected<RunInfo> ParseRunInfo(const std::string& json, const std::string& sourc
     plan.at("source").get_to(info.plan_source);
     plan.at("source_sha256").get_to(info.plan_source_sha256);
     root.at("recording").get_to(info.recording_path);
+    info.mode = root.value("mode", info.mode);
     for (const auto& [name, value] : root.at("options").items()) info.options.push_back({name, value.get<std::string>()});
     const Json& summary = root.at("summary");
     summary.at("scans").get_to(info.scans);

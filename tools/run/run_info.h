@@ -25,6 +25,7 @@ struct RunInfo {
   std::string plan_source;  // the drawing it was compiled from
   std::string plan_source_sha256;
   std::string recording_path;
+  std::string mode = "dis";     // dis | is | uc | so: what was estimated
   std::vector<Option> options;  // flags of `plumb localize`, as given or by default
 
   // Summary.

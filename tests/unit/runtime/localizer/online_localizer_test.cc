@@ -2,7 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "tests/support/house.h"
 #include "tests/support/synthetic_lidar.h"
@@ -58,6 +61,61 @@ TEST(OnlineLocalizer, TakesInAllScansBeforeItGivesResults) {
   ASSERT_TRUE(result.T_plan_map());
   EXPECT_EQ(result.T_plan_map()->matrix(), in_sequence.T_plan_map()->matrix());
   EXPECT_EQ(result.SmoothedTrajectory().size(), 100u);
+}
+
+TEST(OnlineLocalizer, AnswersARequestWithoutChangingTheResult) {
+  const AGraph house = test::MakeHouse();
+  const std::vector<Scan> scans = HouseScans(house, 100);
+  Localizer undisturbed(house);
+  LocalizerOptions options;
+  std::vector<EstimateUpdate> requested, of_itself;
+  options.on_update = [&](const EstimateUpdate& update) { requested.push_back(update); };
+  Localizer asked(house, options);
+  options.on_update = [&](const EstimateUpdate& update) { of_itself.push_back(update); };
+  options.update_every_solve = true;
+  Localizer telling(house, options);
+  for (size_t i = 0; i < scans.size(); ++i) {
+    (void)undisturbed.AddScan(scans[i], std::nullopt);
+    if (i == 5 || i == 95) asked.RequestUpdate();
+    (void)asked.AddScan(scans[i], std::nullopt);
+    (void)telling.AddScan(scans[i], std::nullopt);
+  }
+  ASSERT_TRUE(undisturbed.T_plan_map());
+  EXPECT_EQ(asked.T_plan_map()->matrix(), undisturbed.T_plan_map()->matrix());
+  EXPECT_EQ(telling.T_plan_map()->matrix(), undisturbed.T_plan_map()->matrix());
+  ASSERT_EQ(requested.size(), 2u);
+  EXPECT_EQ(requested[0].stamp_s, scans[5].stamp_s);
+  EXPECT_EQ(requested[0].verdict, Verdict::kSearching);
+  EXPECT_EQ(requested[1].verdict, Verdict::kLocalized);
+  const auto judged = [](const EstimateUpdate& update) {
+    return std::any_of(update.deviations.surfaces.begin(), update.deviations.surfaces.end(), [](const SurfaceDeviation& s) { return s.status != SurfaceStatus::kUnobserved; });
+  };
+  EXPECT_FALSE(judged(requested[0]));
+  EXPECT_TRUE(judged(requested[1]));
+  ASSERT_GT(of_itself.size(), 1u);
+  EXPECT_FALSE(of_itself.back().requested);
+  EXPECT_TRUE(judged(of_itself.back()));
+}
+
+TEST(UpdateToJson, TellsOfEachSurfaceOnceUntilItChanges) {
+  EstimateUpdate update;
+  update.stamp_s = 12.5;
+  update.verdict = Verdict::kLocalized;
+  update.T_plan_map.translation() = Eigen::Vector3d(1, 2, 0.5);
+  update.deviations.surfaces.resize(2);
+  for (size_t i = 0; i < 2; ++i) update.deviations.surfaces[i].surface = SurfaceId(i);
+  update.deviations.surfaces[1].status = SurfaceStatus::kDeviated;
+  update.deviations.surfaces[1].translation_m = 0.2;
+  std::vector<SurfaceDeviation> told;
+  const std::string first = UpdateToJson(update, told);
+  EXPECT_EQ(first,
+            "{\"t\":12.5,\"verdict\":\"localized\",\"T_plan_map\":[1.0,2.0,0.5,0.0],\"surfaces\":[{\"id\":1,\"status\":\"deviated\",\"translation_m\":0.2,"
+            "\"sigma_translation_m\":0.0,\"rotation_deg\":0.0,\"sigma_rotation_deg\":0.0,\"p_deviated\":0.0}]}\n");
+  EXPECT_NE(UpdateToJson(update, told).find("\"surfaces\":[]"), std::string::npos);
+  for (int i = 0; i < 3; ++i) {  // a drift too slow to be news from line to line is, when it adds up
+    update.deviations.surfaces[1].translation_m += 0.0004;
+    EXPECT_EQ(UpdateToJson(update, told).find("\"surfaces\":[]") == std::string::npos, i == 2);
+  }
 }
 
 TEST(OnlineLocalizer, EndsAtOnceWhenNobodyWantsTheResults) {

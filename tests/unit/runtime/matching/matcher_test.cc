@@ -174,6 +174,27 @@ TEST(Matcher, IsAmbiguousInAHouseThatLooksTheSameTurnedRound) {
   EXPECT_LT(std::min(ErrorOf(a.T_plan_map, turned, {5, 2}).xy_m, ErrorOf(b.T_plan_map, turned, {5, 2}).xy_m), 0.05);
 }
 
+// The same house with a third room behind a door in one of its ends: nothing tells it from its half turn until that end is seen.
+TEST(Matcher, IsAmbiguousOnlyUntilWhatBreaksTheSymmetryIsSeen) {
+  const AGraph house = test::MakeGridPlan({0, 5, 10, 13}, {0, 4}, {{true, 1, 0, 0.5}, {true, 2, 0, 0.2}});
+  const Eigen::Isometry3d truth = UprightPose(-40, 1, 2, 0);
+  const auto seen_from = [&](const test::Tour& tour) { return Matcher(house).Match(MakeSyntheticMap(house, OnTour(tour, truth))); };
+  EXPECT_NE(seen_from({{2.5, 3.3}, {1.5, 3.4}, {3.5, 3.2}}).verdict, Verdict::kUnique);
+  const MatchResult result = seen_from({{2.5, 2}, {1.5, 2.5}, {7, 2}, {8, 1.5}, {9, 1.0}, {11.5, 1.5}});
+  ASSERT_EQ(result.verdict, Verdict::kUnique) << result.reason;
+  EXPECT_LT(ErrorOf(result.hypotheses.front().T_plan_map, truth, {5, 2}).xy_m, 0.05);
+}
+
+// A corridor with an end in sight is known along its length as well.
+TEST(Matcher, KnowsACorridorByItsEnd) {
+  const AGraph corridor = test::MakeGridPlan({0, 14, 18}, {0, 2}, {{true, 1, 0, 0.3}});
+  const Eigen::Isometry3d truth = UprightPose(70, 2, -1, 0);
+  const MatchResult result = Matcher(corridor).Match(MakeSyntheticMap(corridor, OnTour({{4, 1}, {8, 1.2}, {12, 0.9}, {16, 1.1}}, truth)));
+  ASSERT_FALSE(result.hypotheses.empty()) << result.reason;
+  EXPECT_LT(ErrorOf(result.hypotheses.front().T_plan_map, truth, {9, 1}).xy_m, 0.05);
+  EXPECT_LT(result.hypotheses.front().sigma_xy_m, 0.1);
+}
+
 TEST(Matcher, IsAmbiguousBetweenTwoStoreysThatAreAlike) {
   AGraph tower = test::MakeHouse();
   const AGraph above = tower;

@@ -1,0 +1,32 @@
+// What the graph says on a scan, and of the building after a solve while the robot drives.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "runtime/deviations/deviations.h"
+
+namespace plumb::runtime {
+
+enum class Verdict : uint8_t { kSearching, kAmbiguous, kLocalized, kLost };
+[[nodiscard]] const char* VerdictName(Verdict verdict);  // searching | ambiguous | localized | lost
+
+struct EstimateUpdate {
+  double stamp_s = 0;  // of the newest scan that it rests on
+  Verdict verdict = Verdict::kSearching;
+  Eigen::Isometry3d T_plan_map = Eigen::Isometry3d::Identity();
+  DeviationReport deviations;  // as far as known by then; nothing observed without a place in the plan
+  bool requested = false;      // by RequestUpdate(); else by itself
+};
+
+// Called on the thread that works on the graph, which waits for it.
+using UpdateSink = std::function<void(const EstimateUpdate&)>;
+
+// One line of JSON, with the line's end: t, verdict, T_plan_map as [x, y, z, yaw_deg], and those surfaces that differ from what was told before by
+// status, 1 mm, 0.1 deg or 0.01 of probability. `told`: what the lines so far said, empty before the first; brought up to date.
+[[nodiscard]] std::string UpdateToJson(const EstimateUpdate& update, std::vector<SurfaceDeviation>& told);
+
+}  // namespace plumb::runtime

@@ -1,0 +1,55 @@
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "runtime/localizer/estimate_update.h"
+#include "runtime/numerics/rounded.h"
+
+namespace plumb::runtime {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kNews_m = 0.001, kNews_rad = 0.1 * std::numbers::pi / 180, kNewsProbability = 0.01;
+
+double Metres(double v) { return Rounded(v, 1e5); }
+double Degrees(double rad) { return Rounded(rad * 180 / std::numbers::pi, 1e4); }
+
+bool IsNews(const SurfaceDeviation& now, const SurfaceDeviation& told) {
+  return now.status != told.status || std::abs(now.translation_m - told.translation_m) >= kNews_m ||
+         std::abs(now.sigma_translation_m - told.sigma_translation_m) >= kNews_m || std::abs(now.rotation_rad - told.rotation_rad) >= kNews_rad ||
+         std::abs(now.p_deviated - told.p_deviated) >= kNewsProbability;
+}
+
+Json SurfaceEntry(const SurfaceDeviation& d) {
+  Json out;
+  out["id"] = d.surface.value;
+  out["status"] = StatusName(d.status);
+  out["translation_m"] = Metres(d.translation_m);
+  out["sigma_translation_m"] = Metres(d.sigma_translation_m);
+  out["rotation_deg"] = Degrees(d.rotation_rad);
+  out["sigma_rotation_deg"] = Degrees(d.sigma_rotation_rad);
+  out["p_deviated"] = Rounded(d.p_deviated, 1e6);
+  return out;
+}
+
+}  // namespace
+
+std::string UpdateToJson(const EstimateUpdate& update, std::vector<SurfaceDeviation>& told) {
+  told.resize(update.deviations.surfaces.size());
+  Json out;
+  out["t"] = Rounded(update.stamp_s, 1e6);
+  out["verdict"] = VerdictName(update.verdict);
+  const Eigen::Vector3d t = update.T_plan_map.translation();
+  const Eigen::Matrix3d R = update.T_plan_map.linear();
+  out["T_plan_map"] = {Metres(t.x()), Metres(t.y()), Metres(t.z()), Degrees(std::atan2(R(1, 0), R(0, 0)))};
+  out["surfaces"] = Json::array();
+  for (size_t i = 0; i < told.size(); ++i) {
+    if (!IsNews(update.deviations.surfaces[i], told[i])) continue;
+    told[i] = update.deviations.surfaces[i];
+    out["surfaces"].push_back(SurfaceEntry(told[i]));
+  }
+  return out.dump() + "\n";
+}
+
+}  // namespace plumb::runtime

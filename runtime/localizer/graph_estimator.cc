@@ -52,6 +52,8 @@ struct GraphEstimator::Impl {
   Verdict verdict = Verdict::kSearching;
   MatchResult match;
   JointResult joint;
+  std::vector<Match> matches;  // that `joint` is based on
+  WallChanges changes;         // as last judged
   Eigen::Isometry3d T_plan_map = Eigen::Isometry3d::Identity();  // of the last fix
   Eigen::Isometry3d T_by_rays = Eigen::Isometry3d::Identity();   // as the matcher found it
   bool ever_fixed = false;
@@ -69,6 +71,7 @@ struct GraphEstimator::Impl {
   Trajectory earlier_poses;
   std::vector<SurfaceDeviation> earlier_surfaces;
   std::vector<RoomDeviation> earlier_rooms;
+  std::vector<UnplannedWall> earlier_unplanned;
 
   [[nodiscard]] bool placed() const { return verdict == Verdict::kLocalized; }
 
@@ -78,6 +81,8 @@ struct GraphEstimator::Impl {
     votes_against = 0;
     solve_due = rescore_due = false;
     joint = {};
+    matches.clear();
+    changes = {};
   }
 
   // Tries to find the map in the plan. A try that leaves several places open is no fix.
@@ -118,19 +123,32 @@ struct GraphEstimator::Impl {
   // Couples map and plan at the current estimate and solves everything jointly. Covariances cost half of the time and steer nothing:
   // they are left out until somebody asks.
   void Optimize(bool covariances) {
-    const std::vector<Match> matches = MatchSurfaces(mapper.graph(), plan, T_plan_map, known, options.coupling);
-    if (matches.empty()) return;
+    std::vector<Match> found = MatchSurfaces(mapper.graph(), plan, T_plan_map, known, options.coupling);
+    // Whatever stands where a wall is missing is not that wall.
+    std::erase_if(found, [&](const Match& m) { return m.plan_surface.valid() && changes.IsMissing(plan.surfaces[m.plan_surface.index()].wall); });
+    if (found.empty()) return;
     JointOptions joint_options = SolverOptions();
     joint_options.covariances = covariances;
-    JointResult result = OptimizeJointly(mapper.graph(), plan, matches, T_plan_map, joint_options);
+    JointResult result = OptimizeJointly(mapper.graph(), plan, found, T_plan_map, joint_options);
     if (result.T_map_kf.empty()) return;  // unusable; a solution short of its last digit is not
     joint = std::move(result);
+    matches = std::move(found);
     T_plan_map = joint.T_plan_map;
     for (const WallEstimate& wall : joint.walls) known[wall.wall.index()] = wall.deviation;
     std::vector<Keyframe>& keyframes = mapper.mutable_graph().keyframes;
     for (size_t i = 0; i < keyframes.size() && i < joint.T_map_kf.size(); ++i) keyframes[i].T_map_kf = joint.T_map_kf[i];
     mapper.OnPosesChanged();
     solved_all_at = num_keyframes;
+  }
+
+  // The last word on a map that lies in the plan: with covariances, and without the walls that are not there.
+  void OptimizeFinally() {
+    Optimize(true);
+    if (matches.empty()) return;
+    changes.presence = JudgePresence(mapper.graph(), plan, joint, options.deviations.presence);
+    const auto is_missing = [&](const WallEstimate& wall) { return changes.IsMissing(wall.wall); };
+    if (std::any_of(joint.walls.begin(), joint.walls.end(), is_missing)) Optimize(true);
+    changes.unplanned = FindUnplannedWalls(mapper.graph(), plan, matches, joint, options.deviations.unplanned);
   }
 
   // Without a plan the map can at least be made consistent by itself.
@@ -223,12 +241,13 @@ struct GraphEstimator::Impl {
   // Keeps what a map that lies in the plan has to say, before it is given up.
   void Archive() {
     mapper.Flush();
-    Optimize(true);
+    OptimizeFinally();
     const Trajectory poses = SmoothedPoses();
     earlier_poses.insert(earlier_poses.end(), poses.begin(), poses.end());
     DeviationReport report = Deviations();
     earlier_surfaces = std::move(report.surfaces);
     earlier_rooms = std::move(report.rooms);
+    earlier_unplanned = std::move(report.unplanned);
   }
 
   [[nodiscard]] Trajectory SmoothedPoses() const {
@@ -244,13 +263,18 @@ struct GraphEstimator::Impl {
 
   [[nodiscard]] DeviationReport Deviations() const {
     // What a planar laser takes for a wall may be the shelf in front of it: it is good enough to be found by, not to blame a wall for.
-    DeviationReport report = AssessDeviations(plan, mapper.graph().planar ? JointResult() : joint, options.deviations);
+    DeviationReport report = AssessDeviations(plan, mapper.graph().planar ? JointResult() : joint, options.deviations, changes);
     if (mapper.graph().planar) report.gauge = "A planar laser sees walls and furniture alike, on one line: walls are not judged.";
     for (size_t i = 0; i < earlier_surfaces.size(); ++i) {
       if (report.surfaces[i].status == SurfaceStatus::kUnobserved) report.surfaces[i] = earlier_surfaces[i];
     }
     for (size_t i = 0; i < earlier_rooms.size(); ++i) {
       if (report.rooms[i].status == SurfaceStatus::kUnobserved) report.rooms[i] = earlier_rooms[i];
+    }
+    for (const UnplannedWall& wall : earlier_unplanned) {
+      if (std::none_of(changes.unplanned.begin(), changes.unplanned.end(), [&](const UnplannedWall& w) { return SameWall(w, wall); })) {
+        report.unplanned.push_back(wall);
+      }
     }
     return report;
   }
@@ -287,7 +311,7 @@ GraphState GraphEstimator::Add(const RegisteredScan& scan, bool hold) {
 void GraphEstimator::Finish() {
   impl_->mapper.Flush();
   if (impl_->placed()) {
-    impl_->Optimize(true);
+    impl_->OptimizeFinally();
   } else {
     impl_->Polish();
   }

@@ -48,8 +48,8 @@ std::optional<uint32_t> RedundantTo(const SGraph& graph, uint32_t keyframe, cons
 void MergeKeyframe(uint32_t keyframe, uint32_t into, SGraph* graph) {
   Keyframe& merged = graph->keyframes[keyframe];
   merged.merged = Keyframe::Merged{into, graph->keyframes[into].T_map_kf.inverse() * merged.T_map_kf};
-  merged.points.clear();
-  merged.points.shrink_to_fit();
+  merged.points = {};
+  merged.standpoints = {};
   for (MapSurface& surface : graph->surfaces) {
     std::vector<Observation>& observations = surface.observations;
     const auto seen = Find(observations, keyframe);
@@ -80,6 +80,7 @@ void BoundPoints(size_t max_points, std::vector<Keyframe>* keyframes) {
       for (size_t i = 0; i < count; ++i) points[i] = points[2 * i];
       points.resize(count);
       points.shrink_to_fit();
+      for (Keyframe::Standpoint& standpoint : keyframe.standpoints) standpoint.first_point = (standpoint.first_point + 1) / 2;
     }
   }
 }

@@ -181,10 +181,7 @@ class Optimizer {
   }
 
   std::string GaugeText(const JointResult& result) const {
-    const auto deviated = std::count_if(result.walls.begin(), result.walls.end(), [](const WallEstimate& w) { return w.p_deviated > 0.5; });
-    std::string text = fmt::format(
-        "The plan is laid where the deviation prior is most probable, which is where most walls stand as planned: {} of {} seen walls deviate.",
-        deviated, result.walls.size());
+    std::string text = "The plan is laid where the deviation prior is most probable, which is where most walls stand as planned.";
     for (const DirectionSupport& d : result.directions) {
       if (!d.ambiguous()) continue;
       text += fmt::format(" Along {:.0f} deg the frame is ambiguous: {} wall(s) agree with it, {} with another.",

@@ -23,8 +23,8 @@ class StandingWalls {
  private:
   const AGraph& plan_;
   std::vector<std::vector<const Doorway*>> doorways_;  // per wall
+  std::vector<WallId> walls_;  // per panel; before them, as it is filled with them
   std::vector<Panel> panels_;
-  std::vector<WallId> walls_;  // per panel
   PanelGrid grid_;
   std::vector<uint32_t> near_;
 };

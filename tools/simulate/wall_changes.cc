@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <optional>
 
 #include "tools/simulate/box.h"
 #include "tools/simulate/random.h"
@@ -13,23 +13,25 @@ namespace plumb::tools {
 namespace {
 
 constexpr double kMinWall_m = 1.5;
+constexpr double kFacing_cos = 0.9;     // a face, not an end
 constexpr double kClear_m = 0.7;        // beside and beyond an added wall: a robot gets past
 constexpr double kDoorClear_m = 0.3;
 constexpr double kStart_m = 0.15;       // of an added wall, where it leaves the wall that it starts at
 constexpr int kTriesPerWall = 200;
 
-// Straight walls with a face of at least kMinWall_m in two rooms of the storey or more.
+// Straight walls with a face of at least kMinWall_m towards a room of the storey on either side.
 std::vector<size_t> WallsBetweenRooms(const AGraph& plan, StoreyId storey) {
-  std::vector<std::set<RoomId>> rooms(plan.walls.size());
-  std::vector<bool> curved(plan.walls.size(), false);
+  const std::vector<WallBody> bodies = FindWallBodies(plan);
+  std::vector<bool> left(plan.walls.size(), false), right(plan.walls.size(), false);
   for (const Surface& s : plan.surfaces) {
-    if (!s.wall.valid()) continue;
-    curved[s.wall.index()] = curved[s.wall.index()] || s.arc.has_value();
-    if (s.room.valid() && plan.rooms[s.room.index()].storey == storey && s.length_m() >= kMinWall_m) rooms[s.wall.index()].insert(s.room);
+    if (!s.wall.valid() || !s.room.valid() || plan.rooms[s.room.index()].storey != storey || s.length_m() < kMinWall_m) continue;
+    const double across = bodies[s.wall.index()].footprint.across().dot(s.normal.head<2>());
+    left[s.wall.index()] = left[s.wall.index()] || across > kFacing_cos;
+    right[s.wall.index()] = right[s.wall.index()] || across < -kFacing_cos;
   }
   std::vector<size_t> walls;
-  for (size_t w = 0; w < rooms.size(); ++w) {
-    if (rooms[w].size() >= 2 && !curved[w]) walls.push_back(w);
+  for (size_t w = 0; w < bodies.size(); ++w) {
+    if (left[w] && right[w] && !bodies[w].curved) walls.push_back(w);
   }
   return walls;
 }

@@ -51,6 +51,7 @@ Json UnplannedEntry(const UnplannedWall& w) {
   out["polygon"] = Json::array();
   for (const Eigen::Vector2d& p : w.polygon) out["polygon"].push_back({Metres(p.x()), Metres(p.y())});
   out["height_m"] = Metres(w.height_m);
+  out["room"] = w.room.value;
   return out;
 }
 

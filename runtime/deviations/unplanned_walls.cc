@@ -287,7 +287,7 @@ class Search {
     }
     const Eigen::Vector2d a = front.panel.start + from * front.panel.along, b = front.panel.start + to * front.panel.along;
     const Eigen::Vector2d behind = depth_m * front.panel.normal;
-    return {{a - behind, b - behind, b, a}, top_m - plan_.rooms[front.room.index()].floor_z_m};
+    return {{a - behind, b - behind, b, a}, top_m - plan_.rooms[front.room.index()].floor_z_m, front.room};
   }
 
   const SGraph& map_;

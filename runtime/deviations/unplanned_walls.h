@@ -30,7 +30,8 @@ struct UnplannedOptions {
 
 struct UnplannedWall {
   std::vector<Eigen::Vector2d> polygon;  // footprint, plan frame, counter-clockwise
-  double height_m = 0;                   // seen, above the floor of the room that it stands in
+  double height_m = 0;                   // seen, above the floor of the room ...
+  RoomId room;                           // ... that it stands in
 };
 
 // Two findings of one wall: their middles are within half a metre.

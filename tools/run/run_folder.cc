@@ -83,6 +83,7 @@ UnplannedEntry ParseUnplanned(const Json& json) {
   UnplannedEntry wall;
   for (const Json& p : json.at("polygon")) wall.polygon.emplace_back(p.at(0).get<double>(), p.at(1).get<double>());
   Get(json, "height_m", wall.height_m);
+  if (json.contains("room")) wall.room = RoomId(json.at("room").get<uint32_t>());
   return wall;
 }
 

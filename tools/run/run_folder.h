@@ -45,6 +45,7 @@ struct RoomEntry {
 struct UnplannedEntry {
   std::vector<Eigen::Vector2d> polygon;  // plan frame
   double height_m = 0;
+  RoomId room;  // that it stands in
 };
 
 struct Deviations {

@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <optional>
 #include <set>
 
@@ -21,9 +22,12 @@ constexpr double kMaxGap_m = 0.5;
 constexpr double kOpposite_cos = 0.99;
 constexpr double kMinThickness_m = 0.03;
 constexpr double kMinOverlap = 0.5;          // of the shorter of two faces
-constexpr double kColumn_m = 0.1;            // of MapSurface::cells
+constexpr double kColumn_m = 0.1;            // of MapSurface::cells ...
+constexpr int kMinCells = 3;                 // ... of one column of a surface that stands there
+constexpr double kMaxTrimGap_m = 0.3;
 constexpr double kOn_m = 0.08, kBeyond_m = 0.25, kEdge_m = 0.15;
-constexpr double kMinInRoom = 0.8;           // of a wall's length
+constexpr double kMinInRoom = 0.5;           // of a wall's length
+constexpr double kUnseen = -std::numeric_limits<double>::infinity();
 constexpr double kParallel_cos = 0.94;
 constexpr double kMaxExplained = 0.5;        // of a wall's length
 constexpr double kMaxMirrored = 0.5;         // of the lines that end on it
@@ -36,7 +40,7 @@ constexpr double kSameWall_m = 0.5;
 struct Candidate {
   Panel panel;
   double area_m2 = 0;
-  std::vector<double> top_m;     // per kColumn_m of its length the highest that was seen there; -inf: nothing
+  std::vector<double> top_m;     // per kColumn_m of its length the highest that was seen there, in the room; -inf: nothing
   std::set<uint32_t> keyframes;
   RoomId room;
   double required_top_m = 0;     // to be as high as a wall
@@ -55,10 +59,17 @@ Candidate CandidateOf(const MapSurface& s, const Eigen::Isometry3d& T_plan_map) 
   c.panel.z_min_m = s.z_min_m + up_m;
   c.panel.z_max_m = s.z_max_m + up_m;
   c.area_m2 = s.area_m2;
-  c.top_m.assign(static_cast<size_t>(std::ceil(c.panel.length_m / kColumn_m)), -1e300);
+  c.top_m.assign(static_cast<size_t>(std::ceil(c.panel.length_m / kColumn_m)), kUnseen);
+  std::vector<int> cells(c.top_m.size(), 0);
   for (const Eigen::Vector2f& cell : s.cells) {
     const auto column = static_cast<size_t>(std::max(0.0, std::floor(static_cast<double>(cell.x()) / kColumn_m)));
-    if (column < c.top_m.size()) c.top_m[column] = std::max(c.top_m[column], static_cast<double>(cell.y()) + up_m);
+    if (column >= c.top_m.size()) continue;
+    c.top_m[column] = std::max(c.top_m[column], static_cast<double>(cell.y()) + up_m);
+    ++cells[column];
+  }
+  // What only touches the surface's plane, such as the floor beyond its end, is none of it.
+  for (size_t i = 0; i < cells.size(); ++i) {
+    if (cells[i] < kMinCells) c.top_m[i] = kUnseen;
   }
   for (const Observation& o : s.observations) c.keyframes.insert(o.keyframe);
   return c;
@@ -78,7 +89,7 @@ bool Continues(const Candidate& a, const Candidate& b) {
 void Append(const Candidate& b, Candidate* a) {
   const Eigen::Vector2d b_end = b.panel.start + b.panel.length_m * b.panel.along;
   const double from = std::min(0.0, a->panel.U(b.panel.start)), to = std::max(a->panel.length_m, a->panel.U(b_end));
-  std::vector<double> top_m(static_cast<size_t>(std::ceil((to - from) / kColumn_m)), -1e300);
+  std::vector<double> top_m(static_cast<size_t>(std::ceil((to - from) / kColumn_m)), kUnseen);
   const auto put = [&](const std::vector<double>& tops, double at) {
     for (size_t i = 0; i < tops.size(); ++i) {
       const auto column = static_cast<size_t>(std::clamp((at - from) / kColumn_m + static_cast<double>(i), 0.0, static_cast<double>(top_m.size()) - 1));
@@ -125,6 +136,28 @@ double LengthAbove(const Candidate& c, double top_m) {
   return kColumn_m * static_cast<double>(std::count_if(c.top_m.begin(), c.top_m.end(), [&](double top) { return top >= top_m; }));
 }
 
+// Leaves of it the longest part that was seen without a long gap.
+void Trim(Candidate* c) {
+  const auto max_gap = static_cast<size_t>(std::lround(kMaxTrimGap_m / kColumn_m));
+  size_t best_from = 0, best_to = 0;
+  for (size_t i = 0; i < c->top_m.size();) {
+    size_t from = i, to = i, gap = 0;
+    for (; i < c->top_m.size() && gap <= max_gap; ++i) {
+      gap = std::isfinite(c->top_m[i]) ? 0 : gap + 1;
+      if (gap == 0) to = i + 1;
+    }
+    while (from < to && !std::isfinite(c->top_m[from])) ++from;
+    if (to - from > best_to - best_from) {
+      best_from = from;
+      best_to = to;
+    }
+  }
+  const double length_m = std::min(c->panel.length_m, kColumn_m * static_cast<double>(best_to));
+  c->panel.start += kColumn_m * static_cast<double>(best_from) * c->panel.along;
+  c->panel.length_m = std::max(0.0, length_m - kColumn_m * static_cast<double>(best_from));
+  c->top_m = {c->top_m.begin() + static_cast<std::ptrdiff_t>(best_from), c->top_m.begin() + static_cast<std::ptrdiff_t>(best_to)};
+}
+
 class Search {
  public:
   Search(const SGraph& map, const AGraph& plan, const std::vector<Match>& matches, const JointResult& estimate, const UnplannedOptions& options)
@@ -159,13 +192,19 @@ class Search {
     if (c.panel.length_m < options_.min_length_m || c.keyframes.size() < static_cast<size_t>(options_.min_keyframes)) return false;
     c.room = RoomOf(c);
     if (!c.room.valid()) return false;
+    for (size_t i = 0; i < c.top_m.size(); ++i) {
+      const Eigen::Vector2d p = c.panel.start + kColumn_m * (static_cast<double>(i) + 0.5) * c.panel.along;
+      if (!Contains(plan_.rooms[c.room.index()], p)) c.top_m[i] = kUnseen;
+    }
+    Trim(&c);
+    if (c.panel.length_m < options_.min_length_m) return false;
     const double floor_m = plan_.rooms[c.room.index()].floor_z_m;
     if (c.panel.z_min_m > floor_m + options_.max_bottom_m) return false;
     c.required_top_m = RequiredTop(c, floor_m);
     return PlannedShare(c, options_.plan_gate_m) < kMaxExplained;
   }
 
-  // The room that most of it stands in.
+  // The room that half of it or more stands in.
   [[nodiscard]] RoomId RoomOf(const Candidate& c) const {
     const double z = 0.5 * (c.panel.z_min_m + c.panel.z_max_m);
     for (size_t r = 0; r < plan_.rooms.size(); ++r) {
@@ -267,13 +306,11 @@ class Search {
     const auto as_high_as_walls = [&](const Candidate& c) { return LengthAbove(c, c.required_top_m) >= std::max(options_.min_length_m, 0.5 * c.panel.length_m); };
     if (as_high_as_walls(front) || (back && as_high_as_walls(*back))) return true;
     if (!back) return false;
-    const auto hides_its_top = [&](const Candidate& c) {
-      const double floor_m = plan_.rooms[c.room.index()].floor_z_m;
-      return LengthAbove(c, floor_m + options_.min_seen_height_m) >= std::max(options_.min_length_m, 0.5 * c.panel.length_m) &&
-             static_cast<double>(c.over) <= kMaxOver * static_cast<double>(c.ended);
-    };
+    const double seen_m = plan_.rooms[front.room.index()].floor_z_m + options_.min_seen_height_m;
+    const auto seen_high = [&](const Candidate& c) { return LengthAbove(c, seen_m) >= std::max(options_.min_length_m, 0.5 * c.panel.length_m); };
+    const auto seen_over = [&](const Candidate& c) { return static_cast<double>(c.over) > kMaxOver * static_cast<double>(c.ended); };
     const double thickness_m = -front.panel.W(back->panel.start + 0.5 * back->panel.length_m * back->panel.along);
-    return thickness_m <= options_.max_thin_m && hides_its_top(front) && hides_its_top(*back);
+    return thickness_m <= options_.max_thin_m && (seen_high(front) || seen_high(*back)) && !seen_over(front) && !seen_over(*back);
   }
 
   [[nodiscard]] UnplannedWall WallOf(const Candidate& front, const Candidate* back) const {

@@ -15,7 +15,8 @@ struct UnplannedOptions {
   double min_length_m = 1.0;
   double below_ceiling_m = 0.3;       // a wall reaches to this far below the ceiling seen there, ...
   double min_height_m = 2.2;          // ... or, where none was seen, as high above the floor: above the tallest furniture
-  // Both faces of a thin wall were seen, but its top was out of the sensor's sight: then so high is enough if no line of sight goes over it.
+  // Both faces of a thin wall were seen, but its top was out of the sensor's sight: then one face seen so high is enough if no line of sight goes
+  // over either.
   double min_seen_height_m = 1.4;
   double max_bottom_m = 0.5;          // above the floor: a wall stands on it
   double max_thickness_m = 0.5;       // between the faces of one wall, ...

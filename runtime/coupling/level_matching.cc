@@ -3,24 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "schema/polygon.h"
+
 namespace plumb::runtime {
-namespace {
-
-bool InRing(const Ring& ring, const Eigen::Vector2d& p) {
-  bool inside = false;
-  for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-    const Eigen::Vector2d &a = ring[i], &b = ring[j];
-    if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x()) inside = !inside;
-  }
-  return inside;
-}
-
-}  // namespace
-
-bool Contains(const Room& room, const Eigen::Vector2d& p) {
-  return InRing(room.polygon, p) && std::none_of(room.holes.begin(), room.holes.end(), [&](const Ring& hole) { return InRing(hole, p); });
-}
-
 std::vector<Match> MatchLevels(const SGraph& map, const AGraph& plan, const Eigen::Isometry3d& T_plan_map, const CouplingOptions& options) {
   std::vector<Match> matches;
   for (size_t i = 0; i < map.surfaces.size(); ++i) {

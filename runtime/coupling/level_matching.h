@@ -11,7 +11,4 @@ namespace plumb::runtime {
 [[nodiscard]] std::vector<Match> MatchLevels(const SGraph& map, const AGraph& plan, const Eigen::Isometry3d& T_plan_map,
                                              const CouplingOptions& options);
 
-// Is p inside the room's polygon and in none of its holes?
-[[nodiscard]] bool Contains(const Room& room, const Eigen::Vector2d& p);
-
 }  // namespace plumb::runtime

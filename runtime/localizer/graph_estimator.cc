@@ -50,7 +50,7 @@ struct GraphEstimator::Impl {
   Matcher matcher;
 
   Verdict verdict = Verdict::kSearching;
-  MatchResult match;
+  std::shared_ptr<const MatchTry> last_try;  // of the present map
   JointResult joint;
   std::vector<Match> matches;  // that `joint` is based on
   WallChanges changes;         // as last judged
@@ -86,8 +86,9 @@ struct GraphEstimator::Impl {
   }
 
   // Tries to find the map in the plan. A try that leaves several places open is no fix.
-  void Search() {
-    match = matcher.Match(mapper.graph());
+  void Search(double stamp_s, const Eigen::Isometry3d& T_odom_lidar) {
+    last_try = std::make_shared<const MatchTry>(MatchTry{stamp_s, mapper.T_map_odom() * T_odom_lidar, matcher.Match(mapper.graph())});
+    const MatchResult& match = last_try->result;
     switch (match.verdict) {
       case MatchResult::Verdict::kSearching:
         if (verdict != Verdict::kLost) verdict = Verdict::kSearching;
@@ -191,8 +192,8 @@ struct GraphEstimator::Impl {
     ForgetFix();
   }
 
-  // After a new keyframe. True if what is due was held back.
-  bool OnKeyframe(bool hold, std::vector<StageTime>& timing) {
+  // After a keyframe that `scan` closed. True if what is due was held back.
+  bool OnKeyframe(const RegisteredScan& scan, bool hold, std::vector<StageTime>& timing) {
     ++num_keyframes;
     if (placed()) {
       solve_due |= num_keyframes % static_cast<size_t>(options.optimize_every) == 0;
@@ -205,7 +206,7 @@ struct GraphEstimator::Impl {
     num_held = 0;
     Stopwatch watch;
     if (!placed()) {
-      Search();
+      Search(scan.stamp_s, scan.odometry.T_odom_lidar);
       timing.push_back({"matching", watch.Lap()});
       return false;
     }
@@ -233,7 +234,7 @@ struct GraphEstimator::Impl {
     mapper = Mapper(options.mapper);
     places.clear();
     num_keyframes = solved_all_at = 0;
-    match = {};
+    last_try.reset();
     verdict = ever_fixed ? Verdict::kLost : Verdict::kSearching;
     ForgetFix();
   }
@@ -299,11 +300,12 @@ GraphState GraphEstimator::Add(const RegisteredScan& scan, bool hold) {
     s.mapper.HoldPoses(s.placed());
     const bool grew = s.mapper.AddScan(o.deskewed, o.T_odom_lidar, o.planar ? std::optional(o.step_covariance) : std::nullopt);
     out.timing.push_back({"mapping", watch.Lap()});
-    if (grew) out.solve_held = s.OnKeyframe(hold, out.timing);
+    if (grew) out.solve_held = s.OnKeyframe(scan, hold, out.timing);
     s.Remember(scan.stamp_s, o.T_odom_lidar);
   }
   out.verdict = s.verdict;
-  out.hypotheses = static_cast<int>(s.match.hypotheses.size());
+  out.hypotheses = s.last_try ? static_cast<int>(s.last_try->result.hypotheses.size()) : 0;
+  out.last_try = s.last_try;
   if (s.ever_fixed) out.T_plan_odom = s.T_plan_map * s.mapper.T_map_odom();
   return out;
 }
@@ -320,7 +322,7 @@ void GraphEstimator::Finish() {
 bool GraphEstimator::placed() const { return impl_->placed(); }
 Eigen::Isometry3d GraphEstimator::T_plan_map() const { return impl_->T_plan_map; }
 const SGraph& GraphEstimator::map() const { return impl_->mapper.graph(); }
-const MatchResult& GraphEstimator::last_match() const { return impl_->match; }
+const MatchTry* GraphEstimator::last_try() const { return impl_->last_try.get(); }
 const JointResult& GraphEstimator::estimate() const { return impl_->joint; }
 DeviationReport GraphEstimator::Deviations() const { return impl_->Deviations(); }
 Trajectory GraphEstimator::SmoothedPoses() const { return impl_->SmoothedPoses(); }

@@ -36,6 +36,13 @@ struct RegisteredScan {
   void Strip() { odometry.deskewed = {odometry.deskewed.stamp_s, {}, {}, {}, {}}; }
 };
 
+// A try to find the map in the plan, and where the robot was in the map by then.
+struct MatchTry {
+  double stamp_s = 0;
+  Eigen::Isometry3d T_map_lidar = Eigen::Isometry3d::Identity();
+  MatchResult result;
+};
+
 // What the graph knew after one scan: enough to turn poses in odometry's frame into poses in the plan.
 struct GraphState {
   Verdict verdict = Verdict::kSearching;
@@ -43,6 +50,7 @@ struct GraphState {
   int odometry_map = 0;  // of the scan
   // From the first fix on; when lost, so that poses go on from where they were.
   std::optional<Eigen::Isometry3d> T_plan_odom;
+  std::shared_ptr<const MatchTry> last_try;  // the newest in this map; null before the first
   bool solve_held = false;  // the scan closed a keyframe, which was mapped and neither matched nor solved
   std::vector<StageTime> timing;  // of this scan
 };
@@ -62,7 +70,7 @@ class GraphEstimator {
   [[nodiscard]] bool placed() const;  // the present map lies in the plan
   [[nodiscard]] Eigen::Isometry3d T_plan_map() const;
   [[nodiscard]] const SGraph& map() const;
-  [[nodiscard]] const MatchResult& last_match() const;
+  [[nodiscard]] const MatchTry* last_try() const;  // in the present map; null before the first
   [[nodiscard]] const JointResult& estimate() const;
   // What only an earlier map saw is as that one saw it.
   [[nodiscard]] DeviationReport Deviations() const;

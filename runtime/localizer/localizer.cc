@@ -76,6 +76,7 @@ ScanVerdict Localizer::Track(const RegisteredScan& scan, const GraphState& graph
   // The map still lies where it did: so does the robot, once it is found in it again.
   if (out.verdict == Verdict::kLocalized && blind()) out.verdict = Verdict::kLost;
   out.hypotheses = out.verdict == Verdict::kLocalized ? 1 : graph.hypotheses;
+  out.last_try = graph.last_try;
   if (graph.T_plan_odom) out.T_plan_lidar = *graph.T_plan_odom * scan.odometry.T_odom_lidar;
   out.timing.push_back({"odometry", scan.odometry_ms});
   out.timing.insert(out.timing.end(), graph.timing.begin(), graph.timing.end());

@@ -1,6 +1,7 @@
 // The whole runtime behind one class: scans in, a verdict and a pose on every scan, deviations at any time.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "runtime/localizer/graph_estimator.h"
@@ -16,6 +17,7 @@ struct ScanVerdict {
   bool in_order = true;  // else the stamp is not later than an earlier scan's: the scan is left out, and this is about the one before
   bool timed = false;  // per-point times were usable; else "deskew off"
   std::optional<Eigen::Isometry3d> T_plan_lidar;  // at the stamp, from the first fix on; when lost, dead reckoning from the last one
+  std::shared_ptr<const MatchTry> last_try;  // the newest, of this scan or an earlier one of the same map
   std::vector<StageTime> timing;
 };
 
@@ -46,7 +48,7 @@ class Localizer {
   // Where the present map lies in the plan; none while it has no place there. A robot that sees nothing for a moment is lost, its map is not.
   [[nodiscard]] std::optional<Eigen::Isometry3d> T_plan_map() const;
   [[nodiscard]] const SGraph& map() const { return graph_.map(); }  // the present one
-  [[nodiscard]] const MatchResult& last_match() const { return graph_.last_match(); }
+  [[nodiscard]] const MatchTry* last_try() const { return graph_.last_try(); }  // in the present map; null before the first
   [[nodiscard]] const JointResult& estimate() const { return graph_.estimate(); }
   [[nodiscard]] DeviationReport Deviations() const { return graph_.Deviations(); }
   // Plan frame, with all knowledge so far: all scans that could be registered to the present map, if it lies in the plan, after those of maps

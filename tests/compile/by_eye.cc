@@ -4,19 +4,12 @@
 #include <optional>
 #include <sstream>
 
+#include "schema/polygon.h"
+
 namespace plumb::test {
 namespace {
 
 using Eigen::Vector2d;
-
-bool IsInside(const Ring& ring, const Vector2d& p) {
-  bool inside = false;
-  for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-    const Vector2d &a = ring[i], &b = ring[j];
-    if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) inside = !inside;
-  }
-  return inside;
-}
 
 // Each place takes the first item that is free and fits; counts the places and the items that are left over.
 template <class Item, class Fits, class PlaceOf>
@@ -49,7 +42,7 @@ Compared Compare(const ByEye& expected, const AGraph& graph, double reach_m) {
   Compared out;
   std::ostringstream text;
   Match(
-      rooms, graph.rooms, "room", [](const Room& r, const Vector2d& p) { return IsInside(r.polygon, p); },
+      rooms, graph.rooms, "room", [](const Room& r, const Vector2d& p) { return Contains(r.polygon, p); },
       [](const Room& r) -> Vector2d { return r.center.head<2>(); }, out.rooms_missed, out.rooms_added, text);
   Match(
       doorways, graph.doorways, "doorway",

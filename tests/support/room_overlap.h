@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "schema/polygon.h"
+
 namespace plumb::test {
 
 using Ring2 = std::vector<Eigen::Vector2d>;
@@ -18,15 +20,6 @@ inline Ring2 RingOf(const nlohmann::json& polygon) {
   return ring;
 }
 
-inline bool Inside(const Ring2& ring, const Eigen::Vector2d& p) {
-  bool inside = false;
-  for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-    const Eigen::Vector2d &a = ring[i], &b = ring[j];
-    if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y())) inside = !inside;
-  }
-  return inside;
-}
-
 // Intersection over union, on a grid of 5 cm.
 inline double Overlap(const Ring2& a, const Ring2& b) {
   Eigen::AlignedBox2d box;
@@ -36,7 +29,7 @@ inline double Overlap(const Ring2& a, const Ring2& b) {
   int both = 0, either = 0;
   for (double y = box.min().y() + 0.025; y < box.max().y(); y += 0.05) {
     for (double x = box.min().x() + 0.025; x < box.max().x(); x += 0.05) {
-      const bool in_a = Inside(a, {x, y}), in_b = Inside(b, {x, y});
+      const bool in_a = Contains(a, {x, y}), in_b = Contains(b, {x, y});
       both += in_a && in_b ? 1 : 0;
       either += in_a || in_b ? 1 : 0;
     }

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "runtime/coupling/level_matching.h"
+#include "schema/polygon.h"
 #include "runtime/coupling/wall_frame.h"
 #include "runtime/numerics/symmetric_eigen.h"
 
@@ -116,7 +116,7 @@ void AddKeyframes(Drive& drive, const DriveOptions& options, Random& random) {
 std::vector<size_t> KeyframesIn(const Drive& drive, const Room& room) {
   std::vector<size_t> out;
   for (size_t k = 0; k < drive.T_plan_kf.size(); ++k) {
-    if (runtime::Contains(room, drive.T_plan_kf[k].translation().head<2>())) out.push_back(k);
+    if (Contains(room, drive.T_plan_kf[k].translation().head<2>())) out.push_back(k);
   }
   return out;
 }

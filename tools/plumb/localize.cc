@@ -15,6 +15,7 @@
 #include "tools/plumb/command.h"
 #include "tools/plumb/config.h"
 #include "tools/plumb/interrupt.h"
+#include "tools/plumb/match_rows.h"
 #include "tools/run/ply.h"
 #include "tools/run/run_folder.h"
 #include "tools/run/run_info.h"
@@ -37,6 +38,7 @@ struct LocalizeFlags {
 struct Results {
   runtime::Trajectory online;
   std::vector<VerdictRow> verdicts;
+  std::vector<TryRow> tries;
   std::vector<TimingRow> timing;
   size_t unreadable_scans = 0, untimed_scans = 0, unordered_scans = 0;
   bool interrupted = false;
@@ -46,7 +48,8 @@ struct Results {
 // Takes in what a replay gives, scan by scan.
 class Collector {
  public:
-  Collector(size_t num_scans, bool paced, Console& console) : num_scans_(num_scans), paced_(paced), console_(console) {}
+  Collector(const AGraph& plan, size_t num_scans, bool paced, Console& console)
+      : plan_(plan), num_scans_(num_scans), paced_(paced), console_(console) {}
 
   // False once the user has had enough.
   bool Add(const runtime::ReplayedScan& scan) {
@@ -70,6 +73,9 @@ class Collector {
     if (!verdict.timed && scan.has_points && results_.untimed_scans++ == 0) {
       console_.Info(fmt::format("scans without {}per-point time: deskew off", scan.has_times ? "usable " : ""));
     }
+    if (verdict.last_try && (results_.tries.empty() || verdict.last_try->stamp_s > results_.tries.back().stamp_s)) {
+      results_.tries.push_back(ToRow(plan_, *verdict.last_try));
+    }
     results_.verdicts.push_back({verdict.stamp_s, runtime::VerdictName(verdict.verdict), verdict.hypotheses});
     if (verdict.T_plan_lidar) results_.online.push_back({verdict.stamp_s, *verdict.T_plan_lidar});
     for (const runtime::StageTime& stage : verdict.timing) results_.timing.push_back({verdict.stamp_s, stage.stage, stage.ms});
@@ -86,6 +92,7 @@ class Collector {
   }
 
  private:
+  const AGraph& plan_;
   size_t num_scans_;
   bool paced_;
   Console& console_;
@@ -98,7 +105,7 @@ class Collector {
 // The localizer with what a recording taught it, and what it said on the way. One of the two runs; `localizer()` has the results.
 class Replayer {
  public:
-  Replayer(const AGraph& plan, const LocalizeFlags& flags) : flags_(flags) {
+  Replayer(const AGraph& plan, const LocalizeFlags& flags) : plan_(plan), flags_(flags) {
     if (flags.replay.rate > 0) {
       online_.emplace(plan, flags.options, flags.replay.online);
     } else {
@@ -107,7 +114,7 @@ class Replayer {
   }
 
   Expected<Results> Run(const runtime::Recording& recording, Console& console) {
-    Collector collector(recording.size(), online_.has_value(), console);
+    Collector collector(plan_, recording.size(), online_.has_value(), console);
     const auto sink = [&](const runtime::ReplayedScan& scan) { return collector.Add(scan); };
     if (offline_) {
       runtime::ReplayOffline(recording, flags_.replay, *offline_, sink);
@@ -134,6 +141,7 @@ class Replayer {
     results.pace->unmapped_scans = counts.unmapped_scans;
   }
 
+  const AGraph& plan_;
   const LocalizeFlags& flags_;
   std::optional<runtime::Localizer> offline_;
   std::optional<runtime::OnlineLocalizer> online_;
@@ -209,8 +217,8 @@ RunInfo Describe(const LocalizeFlags& flags, const CLI::App& sub, const AGraph& 
   if (info.localized_scans == 0) {
     info.last_reason = localizer.map().keyframes.empty()        ? "too little was seen to begin a map"
                        : localizer.T_plan_map()                  ? "found only after the last scan, when the graph had caught up"
-                       : localizer.last_match().reason.empty()   ? "the recording ended before the first try"
-                                                                 : localizer.last_match().reason;
+                       : !localizer.last_try()                   ? "the recording ended before the first try"
+                                                                 : localizer.last_try()->result.reason;
   }
   return info;
 }
@@ -222,6 +230,7 @@ Expected<void> WriteRun(const LocalizeFlags& flags, const AGraph& plan, const Re
       {"trajectory.tum", runtime::WriteTum(results.online)},
       {"trajectory_smoothed.tum", runtime::WriteTum(localizer.SmoothedTrajectory())},
       {"verdicts.csv", VerdictsToCsv(results.verdicts)},
+      {"hypotheses.json", TriesToJson(results.tries)},
       {"timing.csv", TimingToCsv(results.timing)},
       {"map.ply", PointsToPly(AsBuiltCloud(localizer, flags.map_voxel_m), fmt::format("as built, {} frame, metres", localizer.T_plan_map() ? "plan" : "map"))},
       {"sgraph.json", runtime::SGraphToJson(localizer.map(), layers, localizer.T_plan_map())},

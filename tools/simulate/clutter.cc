@@ -30,22 +30,23 @@ Box DrawBox(const FreeSpace& space, const RoomFloor& floor, Random& random) {
 int AddClutter(AsBuilt& built, StoreyId storey, int boxes, uint64_t seed) {
   Random random(seed, static_cast<uint64_t>(RandomStream::kClutter));
   int placed = 0;
-  const FreeSpace empty(built.house, storey, built.passages);
-  const Reach before = FindReach(built.house, storey, empty);
+  FreeSpace space(built.house, storey, built.passages);
+  const Reach before = FindReach(built.house, storey, space);
   for (int i = 0; i < boxes * kTriesPerBox && placed < boxes; ++i) {
     const RoomFloor& floor = before.rooms[random.Index(before.rooms.size())];
     if (!floor.reachable) continue;
-    const Box box = DrawBox(empty, floor, random);
-    AGraph house = built.house;
+    const Box box = DrawBox(space, floor, random);
+    FreeSpace with_box = space;
+    with_box.Block(box.footprint);
+    // Boxes only ever take ways away: whoever reached fewer rooms before does now.
+    if (ReachWithRadius(built.house, storey, with_box, before.robot_radius_m).reachable() < before.reachable()) continue;
+    space = std::move(with_box);
     Element element;
     element.name = fmt::format("box {}", placed + 1);
     element.kind = ElementKind::kFurniture;
     element.storey = storey;
-    house.elements.push_back(element);
-    AddBox(house, box, static_cast<uint32_t>(house.elements.size() - 1));
-    const Reach after = FindReach(house, storey, FreeSpace(house, storey, built.passages));
-    if (after.reachable() < before.reachable() || after.robot_radius_m < before.robot_radius_m) continue;
-    built.house = std::move(house);
+    built.house.elements.push_back(element);
+    AddBox(built.house, box, static_cast<uint32_t>(built.house.elements.size() - 1));
     ++placed;
   }
   return placed;

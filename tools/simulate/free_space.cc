@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "runtime/matching/ray_caster.h"
 #include "runtime/numerics/distance_transform.h"
@@ -12,7 +13,6 @@ namespace {
 constexpr double kMargin_m = 0.5;
 constexpr double kLevel_m = 0.05;      // rooms whose floors differ by more are on another level
 constexpr double kFloorDepth_m = 0.1;  // the robot may roll down a step of this height
-constexpr double kStep_m = kCell_m / 3;
 constexpr double kMaxCells = 64e6;     // 400 m x 400 m
 
 using Polygon3 = std::vector<Eigen::Vector3d>;
@@ -29,17 +29,24 @@ Polygon3 ClipAtHeight(const Polygon3& in, double level, double sign) {
   return out;
 }
 
-bool Inside(const Ring& ring, const Eigen::Vector2d& p) {
-  bool inside = false;
-  for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-    const Eigen::Vector2d &a = ring[i], &b = ring[j];
-    if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y())) inside = !inside;
-  }
-  return inside;
+// Where the row of cell centres at y enters and leaves the room, in turn.
+std::vector<double> Crossings(const Room& room, double y) {
+  std::vector<double> xs;
+  const auto add = [&](const Ring& ring) {
+    for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
+      const Eigen::Vector2d &a = ring[i], &b = ring[j];
+      if ((a.y() > y) != (b.y() > y)) xs.push_back(a.x() + (b.x() - a.x()) * (y - a.y()) / (b.y() - a.y()));
+    }
+  };
+  add(room.polygon);
+  for (const Ring& hole : room.holes) add(hole);
+  std::sort(xs.begin(), xs.end());
+  return xs;
 }
 
-bool InRoom(const Room& room, const Eigen::Vector2d& p) {
-  return Inside(room.polygon, p) && std::none_of(room.holes.begin(), room.holes.end(), [&p](const Ring& hole) { return Inside(hole, p); });
+// To the near side of the obstacle's cell at worst, so half a cell less.
+float ClearanceOf(float squared_cells) {
+  return static_cast<float>(kCell_m * std::max(0.0, std::sqrt(static_cast<double>(squared_cells)) - 0.5));
 }
 
 }  // namespace
@@ -73,6 +80,33 @@ Cell FreeSpace::CellAt(const Eigen::Vector2d& p) const {
   return {std::clamp(static_cast<int>(std::floor(c.x())), 0, width_ - 1), std::clamp(static_cast<int>(std::floor(c.y())), 0, height_ - 1)};
 }
 
+template <class Visit>
+void FreeSpace::VisitCells(const std::vector<Eigen::Vector2d>& polygon, const Visit& visit) const {
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& p : polygon) box.extend(p);
+  if (!box.intersects(Eigen::AlignedBox2d(origin_, origin_ + kCell_m * Eigen::Vector2d(width_, height_)))) return;
+  const int first = CellAt(box.min()).y, last = CellAt(box.max()).y;
+  for (int y = first; y <= last; ++y) {
+    // The polygon's extent in the row of cells: its corners there, and where its edges cross the row's borders.
+    const double bottom = origin_.y() + y * kCell_m, top = bottom + kCell_m;
+    double least = std::numeric_limits<double>::max(), most = std::numeric_limits<double>::lowest();
+    const auto extend = [&](double x) {
+      least = std::min(least, x);
+      most = std::max(most, x);
+    };
+    for (size_t i = 0; i < polygon.size(); ++i) {
+      const Eigen::Vector2d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+      if (a.y() >= bottom && a.y() <= top) extend(a.x());
+      for (const double border : {bottom, top}) {
+        if ((a.y() < border) != (b.y() < border)) extend(a.x() + (b.x() - a.x()) * (border - a.y()) / (b.y() - a.y()));
+      }
+    }
+    if (most < origin_.x() || least > origin_.x() + width_ * kCell_m) continue;
+    const int to = CellAt({most, bottom}).x;
+    for (int x = CellAt({least, bottom}).x; x <= to; ++x) visit(Cell{x, y});
+  }
+}
+
 void FreeSpace::LabelRooms(const AGraph& house, StoreyId storey, const std::vector<Rectangle>& passages) {
   room_.assign(static_cast<size_t>(width_) * static_cast<size_t>(height_), kNoRoom);
   for (size_t r = 0; r < house.rooms.size(); ++r) {
@@ -80,46 +114,32 @@ void FreeSpace::LabelRooms(const AGraph& house, StoreyId storey, const std::vect
     if (room.storey != storey || std::abs(room.floor_z_m - floor_z_m_) > kLevel_m) continue;
     Eigen::AlignedBox2d box;
     for (const Eigen::Vector2d& p : room.polygon) box.extend(p);
-    const Cell lo = CellAt(box.min()), hi = CellAt(box.max());
-    for (int y = lo.y; y <= hi.y; ++y) {
-      for (int x = lo.x; x <= hi.x; ++x) {
-        if (InRoom(room, Center({x, y}))) room_[Index({x, y})] = static_cast<int16_t>(r);
+    const int last = CellAt(box.max()).y;
+    for (int y = CellAt(box.min()).y; y <= last; ++y) {
+      const std::vector<double> xs = Crossings(room, Center({0, y}).y());
+      for (size_t k = 0; k + 1 < xs.size(); k += 2) {
+        const auto column = [&](double x) { return std::clamp(static_cast<int>(std::ceil((x - origin_.x()) / kCell_m - 0.5)), 0, width_); };
+        for (int x = column(xs[k]); x < column(xs[k + 1]); ++x) room_[Index({x, y})] = static_cast<int16_t>(r);
       }
     }
   }
-  for (size_t i = 0; i < room_.size(); ++i) {
-    if (room_[i] != kNoRoom) continue;
-    const auto contains = [p = Center(At(i))](const Rectangle& r) { return r.Contains(p); };
-    if (std::any_of(passages.begin(), passages.end(), contains)) room_[i] = kPassage;
+  for (const Rectangle& passage : passages) {
+    const auto corners = passage.Corners();
+    VisitCells({corners.begin(), corners.end()}, [&](Cell c) {
+      if (room_[Index(c)] == kNoRoom && passage.Contains(Center(c))) room_[Index(c)] = kPassage;
+    });
   }
 }
 
 void FreeSpace::BlockTriangles(const AGraph& house, std::vector<uint8_t>& blocked) const {
-  const auto block = [&](const Eigen::Vector2d& p) {
-    const Eigen::Vector2d c = (p - origin_) / kCell_m;
-    if (c.x() < 0 || c.y() < 0 || c.x() >= width_ || c.y() >= height_) return;
-    blocked[Index(CellAt(p))] = 1;
-  };
+  std::vector<Eigen::Vector2d> outline;
   for (const Triangle& t : house.mesh.triangles) {
     Polygon3 part;
     for (const uint32_t v : {t.a, t.b, t.c}) part.push_back(house.mesh.vertices[v].cast<double>() + house.origin);
     part = ClipAtHeight(ClipAtHeight(part, floor_z_m_ + kBodyBottom_m, 1), floor_z_m_ + kBodyTop_m, -1);
-    // Fans of the clipped polygon, each sampled finer than a cell.
-    for (size_t i = 1; i + 1 < part.size(); ++i) {
-      const Eigen::Vector2d a = part[0].head<2>(), u = part[i].head<2>() - a, v = part[i + 1].head<2>() - a;
-      Eigen::AlignedBox2d reach(a);
-      reach.extend(a + u);
-      reach.extend(a + v);
-      if (!reach.intersects(Eigen::AlignedBox2d(origin_, origin_ + kCell_m * Eigen::Vector2d(width_, height_)))) continue;
-      const int nu = static_cast<int>(std::ceil(u.norm() / kStep_m)) + 1, nv = static_cast<int>(std::ceil(v.norm() / kStep_m)) + 1;
-      const int n = std::max(nu, nv);
-      for (int k = 0; k <= n; ++k) {
-        const double along = static_cast<double>(k) / n;
-        const Eigen::Vector2d from = a + along * u, to = a + along * v;
-        const int m = static_cast<int>(std::ceil((to - from).norm() / kStep_m)) + 1;
-        for (int l = 0; l <= m; ++l) block(from + (to - from) * (static_cast<double>(l) / m));
-      }
-    }
+    outline.clear();
+    for (const Eigen::Vector3d& p : part) outline.push_back(p.head<2>());
+    VisitCells(outline, [&](Cell c) { blocked[Index(c)] = 1; });
   }
 }
 
@@ -143,8 +163,35 @@ void FreeSpace::BlockMissingFloor(const AGraph& house, std::vector<uint8_t>& blo
 
 void FreeSpace::MeasureClearance(const std::vector<uint8_t>& blocked) {
   clearance_m_ = runtime::SquaredCellDistances(blocked, static_cast<size_t>(width_));
-  // To the near side of the obstacle's cell at worst, so half a cell less.
-  for (float& squared : clearance_m_) squared = static_cast<float>(kCell_m * std::max(0.0, std::sqrt(static_cast<double>(squared)) - 0.5));
+  for (float& squared : clearance_m_) squared = ClearanceOf(squared);
+}
+
+void FreeSpace::Block(const Rectangle& footprint) {
+  const auto corners = footprint.Corners();
+  const std::vector<Eigen::Vector2d> outline(corners.begin(), corners.end());
+  Eigen::AlignedBox2d box;
+  for (const Eigen::Vector2d& p : outline) box.extend(p);
+  // Cells farther off than any within is from what blocks it already cannot come nearer: the window grows until that holds.
+  double reach_m = 0;
+  for (double wanted_m = kCell_m; reach_m < wanted_m;) {
+    reach_m = wanted_m;
+    const Cell lo = CellAt(box.min() - Eigen::Vector2d::Constant(reach_m)), hi = CellAt(box.max() + Eigen::Vector2d::Constant(reach_m));
+    for (int y = lo.y; y <= hi.y; ++y) {
+      for (int x = lo.x; x <= hi.x; ++x) wanted_m = std::max(wanted_m, clearance_m(Index({x, y})) + kCell_m);
+    }
+  }
+  const Cell lo = CellAt(box.min() - Eigen::Vector2d::Constant(reach_m)), hi = CellAt(box.max() + Eigen::Vector2d::Constant(reach_m));
+  const auto width = static_cast<size_t>(hi.x - lo.x + 1);
+  std::vector<uint8_t> blocked(width * static_cast<size_t>(hi.y - lo.y + 1), 0);
+  const auto index = [&](Cell c) { return static_cast<size_t>(c.y - lo.y) * width + static_cast<size_t>(c.x - lo.x); };
+  VisitCells(outline, [&](Cell c) { blocked[index(c)] = 1; });
+  const std::vector<float> squared = runtime::SquaredCellDistances(blocked, width);
+  for (int y = lo.y; y <= hi.y; ++y) {
+    for (int x = lo.x; x <= hi.x; ++x) {
+      float& clearance_m = clearance_m_[Index({x, y})];
+      clearance_m = std::min(clearance_m, ClearanceOf(squared[index({x, y})]));
+    }
+  }
 }
 
 }  // namespace plumb::tools

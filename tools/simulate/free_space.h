@@ -39,6 +39,8 @@ class FreeSpace {
   // Distance to the nearest obstacle or place where the robot must not be; 0 there.
   [[nodiscard]] double clearance_m(size_t index) const { return static_cast<double>(clearance_m_[index]); }
   [[nodiscard]] double ClearanceAt(const Eigen::Vector2d& p) const { return clearance_m(Index(CellAt(p))); }
+  // Something stands on the floor there. O(area nearer to it than to any other obstacle).
+  void Block(const Rectangle& footprint);
   // The room whose planned polygon holds the cell, kPassage in doorways, else kNoRoom.
   [[nodiscard]] int16_t room(size_t index) const { return room_[index]; }
   [[nodiscard]] size_t size() const { return room_.size(); }
@@ -48,6 +50,9 @@ class FreeSpace {
   void BlockTriangles(const AGraph& house, std::vector<uint8_t>& blocked) const;
   void BlockMissingFloor(const AGraph& house, std::vector<uint8_t>& blocked) const;
   void MeasureClearance(const std::vector<uint8_t>& blocked);
+  // All cells that the convex polygon touches, edges included.
+  template <class Visit>
+  void VisitCells(const std::vector<Eigen::Vector2d>& polygon, const Visit& visit) const;
 
   Eigen::Vector2d origin_ = Eigen::Vector2d::Zero();
   int width_ = 0, height_ = 0;

@@ -27,6 +27,8 @@ std::vector<size_t> Flood(const FreeSpace& space, size_t start, std::vector<uint
   return cells;
 }
 
+}  // namespace
+
 Reach ReachWithRadius(const AGraph& house, StoreyId storey, const FreeSpace& space, double radius_m) {
   Reach reach;
   reach.robot_radius_m = radius_m;
@@ -68,8 +70,6 @@ Reach ReachWithRadius(const AGraph& house, StoreyId storey, const FreeSpace& spa
   for (const size_t k : best) reach.rooms[k].reachable = true;
   return reach;
 }
-
-}  // namespace
 
 size_t Reach::reachable() const {
   return static_cast<size_t>(std::count_if(rooms.begin(), rooms.end(), [](const RoomFloor& r) { return r.reachable; }));

@@ -23,5 +23,7 @@ struct Reach {
 
 // The robot has a radius of 0.25 m, or as much less (down to 0.12 m) as it takes to reach the most rooms. O(area).
 [[nodiscard]] Reach FindReach(const AGraph& house, StoreyId storey, const FreeSpace& space);
+// For a robot of this radius.
+[[nodiscard]] Reach ReachWithRadius(const AGraph& house, StoreyId storey, const FreeSpace& space, double radius_m);
 
 }  // namespace plumb::tools

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <set>
 
@@ -35,7 +36,10 @@ class TourPlanner {
     const double yaw_rad = random_.Uniform(-std::numbers::pi, std::numbers::pi);
     at_ = RandomViewpoint(start);
     manoeuvres_.push_back({{space_.Center(space_.At(at_))}, 0});
-    for (const RoomFloor* room : Order(start)) VisitThoroughly(*room);
+    for (const RoomFloor* room : Order(start)) {
+      if (planned_m_ > options_.drive.speed_m_s * options_.max_duration_s) break;  // what follows would be cut off again
+      VisitThoroughly(*room);
+    }
     // Every try replays the same wobble: it must not depend on how often the drive was lengthened.
     const Random wobble = random_;
     const auto drive = [&] {
@@ -54,21 +58,36 @@ class TourPlanner {
   }
 
  private:
+  // In the order of the doorways.
+  [[nodiscard]] std::map<RoomId, std::vector<const RoomFloor*>> Neighbours() const {
+    std::map<RoomId, const RoomFloor*> floors;
+    std::map<RoomId, std::vector<const RoomFloor*>> neighbours;
+    for (const RoomFloor* room : rooms_) {
+      floors[room->room] = room;
+      neighbours[room->room] = {};
+    }
+    for (const Doorway& d : house_.doorways) {
+      const auto a = floors.find(d.room_a), b = floors.find(d.room_b);
+      if (a == floors.end() || b == floors.end() || a == b) continue;
+      neighbours[d.room_a].push_back(b->second);
+      neighbours[d.room_b].push_back(a->second);
+    }
+    return neighbours;
+  }
+
   // Depth first through the doorways from `start`; rooms that no doorway of the plan leads to come last.
   std::vector<const RoomFloor*> Order(const RoomFloor& start) {
     std::vector<const RoomFloor*> order, stack = {&start}, rest = rooms_;
     std::set<RoomId> known;
+    const std::map<RoomId, std::vector<const RoomFloor*>> neighbours = Neighbours();
     while (!stack.empty()) {
       const RoomFloor* room = stack.back();
       stack.pop_back();
       if (!known.insert(room->room).second) continue;
       order.push_back(room);
       std::vector<const RoomFloor*> next;
-      for (const Doorway& d : house_.doorways) {
-        for (const RoomFloor* other : rooms_) {
-          const bool joined = (d.room_a == room->room && d.room_b == other->room) || (d.room_b == room->room && d.room_a == other->room);
-          if (joined && !known.contains(other->room)) next.push_back(other);
-        }
+      for (const RoomFloor* other : neighbours.at(room->room)) {
+        if (!known.contains(other->room)) next.push_back(other);
       }
       random_.Shuffle(next);
       stack.insert(stack.end(), next.begin(), next.end());
@@ -117,6 +136,7 @@ class TourPlanner {
     Polyline& line = manoeuvres_.back().line;
     line.insert(line.end(), route.begin() + (line.empty() ? 0 : 1), route.end());
     at_ = target;
+    for (size_t i = 1; i < route.size(); ++i) planned_m_ += (route[i] - route[i - 1]).norm();
     if (random_.Uniform() < kLookAround) {
       manoeuvres_.back().turn_rad = random_.Sign() * random_.Uniform(std::numbers::pi / 3, 2 * std::numbers::pi);
       manoeuvres_.push_back({{route.back()}, 0});
@@ -125,15 +145,18 @@ class TourPlanner {
 
   void Judge(Tour& tour) const {
     std::set<RoomId> visited;
+    std::map<int16_t, const RoomFloor*> floors;
+    for (const RoomFloor& floor : reach_.rooms) floors[static_cast<int16_t>(floor.room.index())] = &floor;
     Eigen::Vector2d last = tour.drive.PoseAt(0).translation().head<2>();
     for (double t = 0; t <= tour.drive.duration_s(); t += 0.1) {
       const Eigen::Vector2d p = tour.drive.PoseAt(t).translation().head<2>();
       tour.path_m += (p - last).norm();
       last = p;
       const size_t index = space_.Index(space_.CellAt(p));
-      for (const RoomFloor& floor : reach_.rooms) {
-        if (std::binary_search(floor.cells.begin(), floor.cells.end(), index)) visited.insert(floor.room);
-      }
+      const auto floor = floors.find(space_.room(index));
+      if (floor == floors.end()) continue;
+      const std::vector<size_t>& cells = floor->second->cells;
+      if (std::binary_search(cells.begin(), cells.end(), index)) visited.insert(floor->second->room);
     }
     for (const RoomFloor& floor : reach_.rooms) (visited.contains(floor.room) ? tour.visited : tour.not_visited).push_back(floor.room);
   }
@@ -146,6 +169,7 @@ class TourPlanner {
   std::vector<const RoomFloor*> rooms_;  // the reachable ones
   std::vector<Manoeuvre> manoeuvres_;
   size_t at_ = 0;
+  double planned_m_ = 0;
 };
 
 }  // namespace

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
-#include "runtime/coupling/level_matching.h"
+#include "schema/polygon.h"
 #include "runtime/coupling/wall_frame.h"
 #include "tests/support/house.h"
 #include "tests/support/synthetic_sgraph.h"

@@ -181,7 +181,8 @@ TEST(Localizer, KeepsSearchingInAPlanOfAnotherBuilding) {
   const AGraph house = test::MakeHouse(), other = test::MakeRandomPlan(3, 4, 3);
   Session run(other, house);
   EXPECT_EQ(run.Until(Verdict::kLocalized, 10), 0);
-  EXPECT_FALSE(run.localizer.last_match().reason.empty());
+  ASSERT_NE(run.localizer.last_try(), nullptr);
+  EXPECT_FALSE(run.localizer.last_try()->result.reason.empty());
 }
 
 TEST(Localizer, PolishesAMapThatLiesInNoPlan) {

@@ -9,10 +9,10 @@
 #include <optional>
 #include <set>
 
-#include "runtime/coupling/level_matching.h"
 #include "runtime/deviations/panel.h"
 #include "runtime/deviations/standing_walls.h"
 #include "runtime/matching/ray_caster.h"
+#include "schema/polygon.h"
 
 namespace plumb::runtime {
 namespace {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "tools/simulate/box.h"
 #include "tools/simulate/random.h"
@@ -101,23 +102,24 @@ Expected<void> LeaveOutWalls(const AGraph& plan, StoreyId storey, int count, uin
 Expected<void> AddWalls(const AGraph& plan, StoreyId storey, int count, uint64_t seed, AsBuilt& built) {
   if (count == 0) return {};
   Random random(seed, static_cast<uint64_t>(RandomStream::kUnplanned));
-  const FreeSpace before(built.house, storey, built.passages);
-  if (before.size() == 0) return Fail(ErrorCode::kPlanUnsuitable, "the storey has no rooms, or more than 400 m x 400 m of them");
-  const Reach reach = FindReach(built.house, storey, before);
+  FreeSpace space(built.house, storey, built.passages);
+  if (space.size() == 0) return Fail(ErrorCode::kPlanUnsuitable, "the storey has no rooms, or more than 400 m x 400 m of them");
+  const Reach reach = FindReach(built.house, storey, space);
   for (int i = 0; i < count * kTriesPerWall && built.unplanned.size() < static_cast<size_t>(count); ++i) {
     const std::optional<Draw> wall = DrawWall(plan, storey, built, random);
-    if (!wall || !HasSpace(*wall, before, built)) continue;
-    AGraph house = built.house;
+    if (!wall || !HasSpace(*wall, space, built)) continue;
+    FreeSpace with_wall = space;
+    with_wall.Block(wall->footprint);
+    if (ReachWithRadius(built.house, storey, with_wall, reach.robot_radius_m).reachable() < reach.reachable()) continue;
+    space = std::move(with_wall);
     Element element;
     element.name = fmt::format("added wall {}", built.unplanned.size() + 1);
     element.kind = ElementKind::kWall;
     element.storey = storey;
-    house.elements.push_back(element);
-    AddBox(house, {wall->footprint, wall->z_min_m, wall->z_max_m}, static_cast<uint32_t>(house.elements.size() - 1));
-    const Reach after = FindReach(house, storey, FreeSpace(house, storey, built.passages));
-    if (after.reachable() < reach.reachable() || after.robot_radius_m < reach.robot_radius_m) continue;
-    built.unplanned.push_back({wall->footprint, wall->z_max_m - wall->z_min_m, static_cast<uint32_t>(house.elements.size() - 1)});
-    built.house = std::move(house);
+    built.house.elements.push_back(element);
+    const auto id = static_cast<uint32_t>(built.house.elements.size() - 1);
+    AddBox(built.house, {wall->footprint, wall->z_min_m, wall->z_max_m}, id);
+    built.unplanned.push_back({wall->footprint, wall->z_max_m - wall->z_min_m, id});
   }
   if (built.unplanned.size() < static_cast<size_t>(count)) {
     return Fail(ErrorCode::kPlanUnsuitable, fmt::format("only {} of {} unplanned walls found a place", built.unplanned.size(), count));

@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kMinStanding_m2 = 0.5;  // of a wall that is known to stand
 constexpr double kBeyond_m = 0.10;       // a line that goes on so far behind a wall's back has passed it
+constexpr double kOnThing_m = 0.10;      // of what is seen from where it is planned
 constexpr double kProbe_m = 0.05;        // a face is where its triangles are, to this
 
 struct Cell {
@@ -84,6 +85,34 @@ class SolidProbe {
   const std::vector<std::vector<WallOpening>> openings_;
 };
 
+// What the plan has besides walls: furniture, columns, stairs. Seen where it is planned, it stands for no wall.
+class PlannedThings {
+ public:
+  explicit PlannedThings(const AGraph& plan) : origin_(plan.origin), caster_(plan.mesh, Things(plan)) {}
+
+  [[nodiscard]] bool IsOneAt(const Sight& sight) const {
+    const double length_m = (sight.to - sight.from).norm();
+    Ray ray;
+    ray.direction = ((sight.to - sight.from) / length_m).cast<float>();
+    ray.origin = (sight.to - origin_).cast<float>() - static_cast<float>(std::min(length_m, kOnThing_m)) * ray.direction;
+    ray.max_range_m = static_cast<float>(2 * kOnThing_m);
+    return caster_.Cast(ray).hit();
+  }
+
+ private:
+  static std::vector<bool> Things(const AGraph& plan) {
+    std::vector<bool> keep(plan.mesh.triangles.size());
+    for (size_t i = 0; i < keep.size(); ++i) {
+      const Element& e = plan.elements[plan.mesh.triangles[i].element];
+      keep[i] = !e.wall.valid() && !e.doorway.valid() && e.kind != ElementKind::kWall && e.kind != ElementKind::kCurtainWall && e.kind != ElementKind::kCovering;
+    }
+    return keep;
+  }
+
+  const Eigen::Vector3d origin_;
+  const RayCaster caster_;
+};
+
 std::vector<FaceGrid> MakeGrids(const AGraph& plan, const PresenceOptions& options) {
   const SolidProbe probe(plan);
   const std::vector<WallFrame> frames = WallFrames(plan);
@@ -130,7 +159,8 @@ class Presence {
  public:
   Presence(const SGraph& map, const AGraph& plan, const JointResult& estimate, const PresenceOptions& options)
       : map_(map), options_(options), T_plan_map_(estimate.T_plan_map), grids_(MakeGrids(plan, options)),
-        near_walls_(Panels(grids_), options.gate_m), standing_(plan, estimate, kMinStanding_m2), result_(plan.walls.size()), keyframes_(plan.walls.size()) {}
+        near_walls_(Panels(grids_), options.gate_m), standing_(plan, estimate, kMinStanding_m2), things_(plan),
+        result_(plan.walls.size()), keyframes_(plan.walls.size()) {}
 
   std::vector<WallPresence> Run() {
     ForEachSight(map_, T_plan_map_, [this](const Sight& sight) { Count(sight); });
@@ -161,7 +191,7 @@ class Presence {
       const bool on_other = !on_itself && !on_.empty();
       const bool within_gate = m.to_m > -options_.gate_m;
       if (on_itself || (within_gate && !on_other && sight.to.z() > g.z_low_m && sight.to.z() < g.z_high_m)) {
-        ++cell->ended;
+        if (on_itself || !things_.IsOneAt(sight)) ++cell->ended;
       } else if (m.from_m >= options_.gate_m && (!within_gate || (on_other && m.to_m < -g.half_m - kBeyond_m))) {
         ++cell->passed;
         if (cell->last_keyframe != sight.keyframe) ++cell->keyframes;
@@ -217,6 +247,7 @@ class Presence {
   std::vector<FaceGrid> grids_;
   PanelGrid near_walls_;
   StandingWalls standing_;
+  const PlannedThings things_;
   std::vector<WallPresence> result_;
   std::vector<std::vector<uint32_t>> keyframes_;  // per wall: from which its place was seen through, ascending
   std::vector<uint32_t> near_;

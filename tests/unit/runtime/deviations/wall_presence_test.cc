@@ -49,6 +49,23 @@ TEST(JudgePresence, FurnitureWhereTheWallWouldBeDoesNotStandForIt) {
   EXPECT_EQ(MissingWalls(plan, built), std::vector<std::string>{"wall-middle"});
 }
 
+TEST(JudgePresence, PlannedFurnitureDoesNotStandForTheWallBehindIt) {
+  AGraph plan = test::MakeHouse();
+  for (const double y : {0.1, 3.7}) test::AddThing(plan, {4.34, y, 0}, {4.94, y + 1.9, 0.75});  // units all along it
+  AGraph built = plan;
+  EXPECT_TRUE(MissingWalls(plan, built).empty());
+  test::TakeOut(built, "wall-middle");
+  EXPECT_EQ(MissingWalls(plan, built), std::vector<std::string>{"wall-middle"});
+}
+
+TEST(JudgePresence, APlanOfNothingButWallsIsEnough) {
+  const AGraph house = test::MakeHouse();
+  AGraph plan = house, built = house;
+  std::erase_if(plan.mesh.triangles, [&](const Triangle& t) { return plan.elements[t.element].kind != ElementKind::kWall; });
+  test::TakeOut(built, "wall-middle");
+  EXPECT_EQ(MissingWalls(plan, built), std::vector<std::string>{"wall-middle"});
+}
+
 TEST(JudgePresence, AWallThatStandsElsewhereIsNotMissing) {
   const AGraph plan = test::MakeHouse();
   for (const double dx_m : {-0.6, -0.3, 0.3, 0.6}) {

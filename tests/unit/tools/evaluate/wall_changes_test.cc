@@ -35,7 +35,7 @@ TEST(CompareUnplanned, IsFoundIfHalfOfItsLengthIsCoveredWithinTenCentimetres) {
   truth.unplanned = {{Box(0, 0, 2, 0.1), 1000}};
   const auto outcome = [&](const std::vector<Eigen::Vector2d>& polygon) {
     Deviations reported;
-    reported.unplanned = {{polygon, 2.5}};
+    reported.unplanned = {{polygon, 2.5, RoomId()}};
     return CompareUnplanned(truth, reported, 200);
   };
   EXPECT_EQ(outcome(Box(0.9, 0.08, 2, 0.2)).front().outcome, WallOutcome::kFound);   // 3 cm off, and more than half of it

@@ -22,7 +22,7 @@ TEST(WallChanges, AreFoundInTheFzkHouseAndNothingElseIs) {
   const fs::path folder = fs::path(::testing::TempDir()) / ("plumb_wall_changes." + std::to_string(getpid()));
   fs::create_directories(folder);
   ASSERT_EQ(Plumb(folder, "compile '" + source + "' -o plan.agraph 2> compile.txt"), 0);
-  ASSERT_EQ(Plumb(folder, "simulate plan.agraph --seed 5 --deviate 1 --missing 1 --unplanned 1 --clutter 8 --duration 90 --max-duration 90 -o rec/"), 0);
+  ASSERT_EQ(Plumb(folder, "simulate plan.agraph --seed 8 --deviate 0 --missing 1 --unplanned 1 --clutter 6 --duration 90 --max-duration 90 -o rec/"), 0);
   ASSERT_EQ(Plumb(folder, "localize plan.agraph rec/ -o run/"), 0);
   ASSERT_EQ(Plumb(folder, "evaluate run/ --truth rec/ --json run/evaluation.json"), 0);
   const Json evaluation = ReadJson(folder / "run/evaluation.json");

@@ -185,12 +185,10 @@ std::vector<Eigen::Vector3d> AsBuiltCloud(const runtime::Localizer& localizer, d
   return cloud;
 }
 
-size_t CountDeviatedWalls(const AGraph& plan, const runtime::DeviationReport& report) {
+size_t CountWalls(const AGraph& plan, const runtime::DeviationReport& report, runtime::SurfaceStatus status) {
   std::set<WallId> walls;
   for (const runtime::SurfaceDeviation& s : report.surfaces) {
-    if (s.status == runtime::SurfaceStatus::kDeviated || s.status == runtime::SurfaceStatus::kMissing) {
-      walls.insert(plan.surfaces[s.surface.index()].wall);
-    }
+    if (s.status == status) walls.insert(plan.surfaces[s.surface.index()].wall);
   }
   return walls.size();
 }
@@ -220,7 +218,9 @@ RunInfo Describe(const LocalizeFlags& flags, const CLI::App& sub, const AGraph& 
   info.planar = localizer.map().planar;
   info.keyframes = static_cast<size_t>(std::count_if(localizer.map().keyframes.begin(), localizer.map().keyframes.end(),
                                                      [](const runtime::Keyframe& keyframe) { return !keyframe.merged; }));
-  info.deviated_walls = CountDeviatedWalls(plan, report);
+  info.deviated_walls = CountWalls(plan, report, runtime::SurfaceStatus::kDeviated);
+  info.missing_walls = CountWalls(plan, report, runtime::SurfaceStatus::kMissing);
+  info.unplanned_walls = report.unplanned.size();
   info.range_bias_m = localizer.estimate().range_bias_m;
   info.pace = results.pace;
   double total_ms = 0;
@@ -330,8 +330,9 @@ Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
     session.console.Info("drive through more rooms; if that does not help: another plan or storey? `plumb validate` looks at the plan, `plumb doctor` at the recording");
     return Status::kFindings;
   }
-  session.console.Info(fmt::format("{}: localized after {:.1f} s, {} of {} scans; {} walls deviate; {:.0f} ms per scan", flags.output,
-                                   *info.time_to_localize_s, info.localized_scans, info.scans, info.deviated_walls, info.ms_per_scan));
+  session.console.Info(fmt::format("{}: localized after {:.1f} s, {} of {} scans; {} walls deviate, {} are missing, {} unplanned; {:.0f} ms per scan", flags.output,
+                                   *info.time_to_localize_s, info.localized_scans, info.scans, info.deviated_walls, info.missing_walls,
+                                   info.unplanned_walls, info.ms_per_scan));
   if (info.pace) {
     session.console.Info(fmt::format("{}: poses {:.0f} ms after their scan (99 %: {:.0f} ms); {} keyframes solved later, {} scans not mapped", flags.output,
                                      info.pace->latency_p50_ms, info.pace->latency_p99_ms, info.pace->held_solves, info.pace->unmapped_scans));

@@ -67,9 +67,9 @@ Status RunSimulate(const SimulateFlags& flags, Session& session) {
   if (!plan) return session.Fail(plan.error());
   const auto done = Simulate(*plan, *options, flags.output, [&](size_t i, size_t n) { session.console.Progress("simulating", i, n); });
   if (!done) return session.Fail(done.error());
-  session.console.Info(fmt::format("{}: {} scans in {:.1f} s over {:.1f} m, {} of {} rooms visited, {} walls off their plan", flags.output, done->scans,
+  session.console.Info(fmt::format("{}: {} scans in {:.1f} s over {:.1f} m, {} of {} rooms visited, {} walls off their plan, {} missing, {} unplanned", flags.output, done->scans,
                                    done->duration_s, done->path_m, done->visited.size(), done->visited.size() + done->not_visited.size(),
-                                   done->walls.size()));
+                                   done->walls.size(), done->missing.size(), done->unplanned.size()));
   return Status::kFine;
 }
 
@@ -87,6 +87,8 @@ void AddSimulate(CLI::App& app, Session& session) {
   sub->add_option("-o,--output", flags->output, "the recording folder to write")->required()->type_name("REC");
   sub->add_option("--seed", o.seed, "of all random numbers; same seed, same recording");
   sub->add_option("--deviate", o.deviate, "number of walls that are built off the plan");
+  sub->add_option("--missing", o.missing, "number of planned walls that are not built");
+  sub->add_option("--unplanned", o.unplanned, "number of walls that are built and not in the plan");
   sub->add_option("--translation", flags->translation, "least and largest displacement of such a wall, m")->type_name("LEAST:MOST");
   sub->add_option("--rotation", flags->rotation_deg, "least and largest turn of such a wall, deg")->type_name("LEAST:MOST");
   sub->add_option("--sensor", o.sensor, "one of " + sensors);

@@ -16,6 +16,7 @@
 #include "tools/simulate/sweep.h"
 #include "tools/simulate/tour.h"
 #include "tools/simulate/truth_json.h"
+#include "tools/simulate/wall_changes.h"
 #include "tools/simulate/wheel_odometry.h"
 
 namespace plumb::tools {
@@ -62,7 +63,18 @@ class Recorder {
  public:
   Recorder(const AGraph& plan, const AsBuilt& built, const Drive& drive, const SensorModel& sensor, const SimulateOptions& options)
       : plan_(plan), counter_(plan, built), drive_(drive), lidar_(built.house, sensor, options.glass_transmission), options_(options),
-        surface_points_(plan.surfaces.size(), 0), surface_scans_(plan.surfaces.size(), 0) {}
+        house_(built.house), origin_(plan.origin), surface_points_(plan.surfaces.size(), 0), surface_scans_(plan.surfaces.size(), 0) {
+    const std::vector<WallBody> bodies = FindWallBodies(plan);
+    for (const WallId wall : built.missing) {
+      missing_.push_back({wall, 0});
+      missing_bodies_.push_back(bodies[wall.index()]);
+    }
+    for (const AddedWall& wall : built.unplanned) {
+      const auto corners = wall.footprint.Corners();
+      unplanned_.push_back({{corners.begin(), corners.end()}, wall.height_m, 0});
+      unplanned_elements_.push_back(wall.element);
+    }
+  }
 
   Expected<void> Run(const fs::path& folder, size_t scans, const SimulateProgress& progress) {
     tbb::parallel_for(size_t{0}, scans, [&](size_t i) { RecordOne(folder, i, scans, progress); });
@@ -74,6 +86,8 @@ class Recorder {
     summary.points = points_;
     summary.surface_points = surface_points_;
     summary.surface_scans = surface_scans_;
+    summary.missing = missing_;
+    summary.unplanned = unplanned_;
   }
 
  private:
@@ -86,6 +100,7 @@ class Recorder {
     for (const Echo& echo : sweep.echoes) {
       if (const SurfaceId id = counter_.SurfaceOf(echo); id.valid()) ++seen[id.index()];
     }
+    const Changes changes = CountChanges(sweep, pose(stamp_s - options_.start_stamp_s).translation());
     const Expected<void> written = runtime::WritePcd(sweep.scan, (folder / "scans" / runtime::ScanFileName(stamp_s)).string());
     const std::lock_guard lock(mutex_);
     if (!written && !error_) error_ = written.error();
@@ -93,8 +108,27 @@ class Recorder {
       surface_points_[s] += seen[s];
       surface_scans_[s] += seen[s] >= kMinScanPoints ? 1 : 0;
     }
+    for (size_t w = 0; w < missing_.size(); ++w) missing_[w].rays_through += changes.rays_through[w];
+    for (size_t w = 0; w < unplanned_.size(); ++w) unplanned_[w].points += changes.points[w];
     points_ += sweep.scan.points.size();
     if (progress) progress(++done_, scans);
+  }
+
+  // What one sweep saw of walls left out and added.
+  struct Changes {
+    std::vector<uint64_t> rays_through, points;
+  };
+  [[nodiscard]] Changes CountChanges(const Sweep& sweep, const Eigen::Vector3d& sensor) const {
+    Changes changes{std::vector<uint64_t>(missing_bodies_.size(), 0), std::vector<uint64_t>(unplanned_elements_.size(), 0)};
+    for (const Echo& echo : sweep.echoes) {
+      for (size_t w = 0; w < missing_bodies_.size(); ++w) {
+        changes.rays_through[w] += PassesThrough(missing_bodies_[w], sensor, echo.position.cast<double>() + origin_) ? 1 : 0;
+      }
+      for (size_t w = 0; w < unplanned_elements_.size(); ++w) {
+        changes.points[w] += house_.mesh.triangles[echo.triangle].element == unplanned_elements_[w] ? 1 : 0;
+      }
+    }
+    return changes;
   }
 
   const AGraph& plan_;
@@ -102,10 +136,16 @@ class Recorder {
   const Drive& drive_;
   const Lidar lidar_;
   const SimulateOptions& options_;
+  const AGraph& house_;
+  const Eigen::Vector3d origin_;
+  std::vector<WallBody> missing_bodies_;      // of missing_
+  std::vector<uint32_t> unplanned_elements_;  // of unplanned_
   std::mutex mutex_;  // guards all below
   std::optional<Error> error_;
   std::vector<uint64_t> surface_points_;
   std::vector<uint32_t> surface_scans_;
+  std::vector<MissingWall> missing_;
+  std::vector<UnplannedWall> unplanned_;
   size_t points_ = 0, done_ = 0;
 };
 
@@ -137,6 +177,8 @@ std::string SimulateOptions::Check() const {
     return fmt::format("SimulateOptions.{} = {}; must be {}", field, value, rule);
   };
   if (deviate < 0) return bad("deviate", deviate, ">= 0");
+  if (missing < 0) return bad("missing", missing, ">= 0");
+  if (unplanned < 0) return bad("unplanned", unplanned, ">= 0");
   if (!(min_translation_m >= 0)) return bad("min_translation_m", min_translation_m, ">= 0");
   if (!(max_translation_m >= min_translation_m && max_translation_m <= 2)) {
     return bad("max_translation_m", max_translation_m, "from min_translation_m to 2");
@@ -168,6 +210,8 @@ Expected<SimulateSummary> Simulate(const AGraph& plan, const SimulateOptions& op
   Expected<AsBuilt> built = BuildWithDeviations(plan, summary.storey, options);
   if (!built) return tl::unexpected(built.error());
   summary.walls = built->walls;
+  if (const auto done = LeaveOutWalls(plan, summary.storey, options.missing, options.seed, *built); !done) return tl::unexpected(done.error());
+  if (const auto done = AddWalls(plan, summary.storey, options.unplanned, options.seed, *built); !done) return tl::unexpected(done.error());
   if (options.clutter > 0) summary.boxes = AddClutter(*built, summary.storey, options.clutter, options.seed);
 
   const FreeSpace space(built->house, summary.storey, built->passages);

@@ -50,8 +50,8 @@ void MergeKeyframe(uint32_t keyframe, uint32_t into, SGraph* graph) {
   merged.merged = Keyframe::Merged{into, graph->keyframes[into].T_map_kf.inverse() * merged.T_map_kf};
   graph->keyframes[into].smear_m = std::max(graph->keyframes[into].smear_m, merged.smear_m);
   graph->keyframes[into].smear_rad = std::max(graph->keyframes[into].smear_rad, merged.smear_rad);
-  merged.points = {};
-  merged.standpoints = {};
+  merged.points = std::vector<Eigen::Vector3f>();  // an empty list in its place would keep the memory
+  merged.standpoints = std::vector<Keyframe::Standpoint>();
   for (MapSurface& surface : graph->surfaces) {
     std::vector<Observation>& observations = surface.observations;
     const auto seen = Find(observations, keyframe);

@@ -7,12 +7,12 @@
 #include <memory>
 #include <numbers>
 #include <set>
-#include <unordered_set>
 
 #include "runtime/localizer/replay.h"
 #include "runtime/rooms/sgraph_json.h"
 #include "schema/agraph_reader.h"
 #include "schema/files.h"
+#include "tools/plumb/as_built_cloud.h"
 #include "tools/plumb/command.h"
 #include "tools/plumb/config.h"
 #include "tools/plumb/interrupt.h"
@@ -157,33 +157,6 @@ class Replayer {
   std::optional<runtime::OnlineLocalizer> online_;
   runtime::Localizer* drained_ = nullptr;
 };
-
-struct Voxel {
-  int64_t x = 0, y = 0, z = 0;
-  friend bool operator==(const Voxel&, const Voxel&) = default;
-};
-struct VoxelHash {
-  size_t operator()(const Voxel& v) const noexcept {
-    return static_cast<size_t>(v.x) * 73856093u ^ static_cast<size_t>(v.y) * 19349663u ^ static_cast<size_t>(v.z) * 83492791u;
-  }
-};
-
-// The keyframes' points, the first of each voxel: in the plan frame, or the map's own where nobody knows where in the plan it lies.
-std::vector<Eigen::Vector3d> AsBuiltCloud(const runtime::Localizer& localizer, double voxel_m) {
-  std::vector<Eigen::Vector3d> cloud;
-  const Eigen::Isometry3d T_plan_map = localizer.T_plan_map().value_or(Eigen::Isometry3d::Identity());
-  std::unordered_set<Voxel, VoxelHash> taken;
-  for (const runtime::Keyframe& keyframe : localizer.map().keyframes) {
-    const Eigen::Isometry3d T_plan_kf = T_plan_map * keyframe.T_map_kf;
-    for (const Eigen::Vector3f& point : keyframe.points) {
-      const Eigen::Vector3d p = T_plan_kf * point.cast<double>();
-      const Eigen::Vector3d cell = (p / voxel_m).array().floor();
-      const Voxel voxel{static_cast<int64_t>(cell.x()), static_cast<int64_t>(cell.y()), static_cast<int64_t>(cell.z())};
-      if (taken.insert(voxel).second) cloud.push_back(p);
-    }
-  }
-  return cloud;
-}
 
 size_t CountWalls(const AGraph& plan, const runtime::DeviationReport& report, runtime::SurfaceStatus status) {
   std::set<WallId> walls;

@@ -15,6 +15,7 @@
 #include "tools/plumb/as_built_cloud.h"
 #include "tools/plumb/command.h"
 #include "tools/plumb/config.h"
+#include "tools/plumb/flag_names.h"
 #include "tools/plumb/interrupt.h"
 #include "tools/plumb/match_rows.h"
 #include "tools/plumb/updates.h"
@@ -249,7 +250,7 @@ Expected<runtime::StartHint> HintOf(const LocalizeFlags& flags, const AGraph& pl
   if (hint.given() && flags.options.matcher_kind == runtime::MatcherKind::kGraph) {
     return Fail(ErrorCode::kBadOption, "--near and --room go with --matcher wall; the graph matcher takes no hints");
   }
-  if (std::string wrong = hint.Check(); !wrong.empty()) return Fail(ErrorCode::kBadOption, std::move(wrong));
+  if (const std::string wrong = hint.Check(); !wrong.empty()) return Fail(ErrorCode::kBadOption, InFlags(wrong));
   return hint;
 }
 
@@ -265,10 +266,11 @@ Expected<void> PrepareOutput(const std::string& folder) {
 }
 
 Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
+  if (!(flags.tolerance_deg >= 0)) return session.Fail({ErrorCode::kBadOption, fmt::format("--tolerance-angle {}; must be >= 0", flags.tolerance_deg)});
   flags.options.deviations.min_yaw_rad = flags.tolerance_deg * std::numbers::pi / 180;
   flags.replay.given_odometry = !flags.no_odometry;
   for (const std::string& wrong : {flags.options.Check(), flags.replay.Check()}) {
-    if (!wrong.empty()) return session.Fail({ErrorCode::kBadOption, wrong});
+    if (!wrong.empty()) return session.Fail({ErrorCode::kBadOption, InFlags(wrong)});
   }
   if (!(flags.map_voxel_m > 0)) return session.Fail({ErrorCode::kBadOption, fmt::format("--map-voxel {}; must be positive", flags.map_voxel_m)});
   const auto plan = ReadAGraphFile(flags.plan);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <numbers>
@@ -11,6 +12,7 @@
 
 #include "schema/agraph_reader.h"
 #include "tools/plumb/command.h"
+#include "tools/plumb/flag_names.h"
 #include "tools/simulate/sensor.h"
 
 namespace plumb::tools {
@@ -19,7 +21,7 @@ namespace {
 struct SimulateFlags {
   std::string plan, output;
   std::string translation = "0.05:0.35", rotation_deg = "0:5";
-  bool force = false;
+  bool force = false, duration_given = false;
   SimulateOptions options;
 };
 
@@ -38,11 +40,16 @@ Expected<SimulateOptions> OptionsOf(const SimulateFlags& flags) {
   const auto translation = ParseRange(flags.translation), rotation = ParseRange(flags.rotation_deg);
   if (!translation) return Fail(ErrorCode::kBadOption, fmt::format("--translation {}; must be LEAST:MOST in metres", flags.translation));
   if (!rotation) return Fail(ErrorCode::kBadOption, fmt::format("--rotation {}; must be LEAST:MOST in degrees", flags.rotation_deg));
+  const auto within = [](const std::pair<double, double>& range, double most) { return range.first >= 0 && range.second >= range.first && range.second <= most; };
+  if (!within(*translation, 2)) return Fail(ErrorCode::kBadOption, fmt::format("--translation {}; must be within 0:2 m, the least first", flags.translation));
+  if (!within(*rotation, 30)) return Fail(ErrorCode::kBadOption, fmt::format("--rotation {}; must be within 0:30 deg, the least first", flags.rotation_deg));
   constexpr double kRadPerDeg = std::numbers::pi / 180;
   std::tie(options.min_translation_m, options.max_translation_m) = *translation;
   options.min_rotation_rad = rotation->first * kRadPerDeg;
   options.max_rotation_rad = rotation->second * kRadPerDeg;
-  if (std::string wrong = options.Check(); !wrong.empty()) return Fail(ErrorCode::kBadOption, std::move(wrong));
+  // Whoever asks for a short recording does not mean the usual length.
+  if (!flags.duration_given) options.min_duration_s = std::min(options.min_duration_s, options.max_duration_s);
+  if (const std::string wrong = options.Check(); !wrong.empty()) return Fail(ErrorCode::kBadOption, InFlags(wrong));
   return options;
 }
 
@@ -101,7 +108,10 @@ void AddSimulate(CLI::App& app, Session& session) {
   sub->add_option("--glass-transmission", o.glass_transmission, "chance that a ray passes a pane");
   sub->add_option("--clutter", o.clutter, "boxes that stand about and are not in the plan");
   sub->add_flag("--force", flags->force, "replace a recording that no simulation wrote");
-  sub->callback([flags, &session] { session.status = RunSimulate(*flags, session); });
+  sub->callback([flags, sub, &session] {
+    flags->duration_given = sub->count("--duration") > 0;
+    session.status = RunSimulate(*flags, session);
+  });
 }
 
 }  // namespace plumb::tools

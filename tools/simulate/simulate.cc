@@ -184,15 +184,15 @@ std::string SimulateOptions::Check() const {
     return bad("max_translation_m", max_translation_m, "from min_translation_m to 2");
   }
   if (!(min_rotation_rad >= 0)) return bad("min_rotation_rad", min_rotation_rad, ">= 0");
-  if (!(max_rotation_rad >= min_rotation_rad && max_rotation_rad <= 0.5)) {
-    return bad("max_rotation_rad", max_rotation_rad, "from min_rotation_rad to 0.5");
+  if (!(max_rotation_rad >= min_rotation_rad && max_rotation_rad <= 0.53)) {
+    return bad("max_rotation_rad", max_rotation_rad, "from min_rotation_rad to 0.53");
   }
   if (!FindSensor(sensor)) return bad("sensor", sensor, fmt::format("one of {}", fmt::join(SensorNames(), ", ")).c_str());
   if (!(noise_m >= 0 && noise_m <= 0.5)) return bad("noise_m", noise_m, "from 0 to 0.5");
   if (!(speed_m_s >= 0.05 && speed_m_s <= 3)) return bad("speed_m_s", speed_m_s, "from 0.05 to 3");
   if (!(sensor_height_m >= 0.1 && sensor_height_m <= 3)) return bad("sensor_height_m", sensor_height_m, "from 0.1 to 3");
   if (!(min_duration_s >= 0 && min_duration_s <= 36000)) return bad("min_duration_s", min_duration_s, "from 0 to 36000");
-  if (!(max_duration_s >= std::max(1.0, min_duration_s))) return bad("max_duration_s", max_duration_s, ">= 1 and >= min_duration_s");
+  if (!(max_duration_s >= std::max(1.0, min_duration_s))) return bad("max_duration_s", max_duration_s, ">= 1 and no less than the duration asked for");
   if (!(wobble_rad >= 0 && wobble_rad <= 0.1)) return bad("wobble_rad", wobble_rad, "from 0 to 0.1");
   if (!(glass_transmission >= 0 && glass_transmission <= 1)) return bad("glass_transmission", glass_transmission, "from 0 to 1");
   if (clutter < 0 || clutter > 1000) return bad("clutter", clutter, "from 0 to 1000");

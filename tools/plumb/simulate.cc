@@ -20,6 +20,7 @@ namespace {
 
 struct SimulateFlags {
   std::string plan, output;
+  std::string deviate = "3";
   std::string translation = "0.05:0.35", rotation_deg = "0:5";
   bool force = false, duration_given = false;
   SimulateOptions options;
@@ -37,6 +38,16 @@ std::optional<std::pair<double, double>> ParseRange(const std::string& text) {
 
 Expected<SimulateOptions> OptionsOf(const SimulateFlags& flags) {
   SimulateOptions options = flags.options;
+  if (!flags.deviate.empty() && flags.deviate.back() == '%') {
+    if (!CLI::detail::lexical_cast(flags.deviate.substr(0, flags.deviate.size() - 1), options.deviate_ratio) ||
+        !(options.deviate_ratio >= 0 && options.deviate_ratio <= 100)) {
+      return Fail(ErrorCode::kBadOption, fmt::format("--deviate {}; must be a number, or a share from 0% to 100%", flags.deviate));
+    }
+    options.deviate_ratio /= 100;
+    options.deviate = 0;
+  } else if (!CLI::detail::lexical_cast(flags.deviate, options.deviate)) {
+    return Fail(ErrorCode::kBadOption, fmt::format("--deviate {}; must be a number, or a share from 0% to 100%", flags.deviate));
+  }
   const auto translation = ParseRange(flags.translation), rotation = ParseRange(flags.rotation_deg);
   if (!translation) return Fail(ErrorCode::kBadOption, fmt::format("--translation {}; must be LEAST:MOST in metres", flags.translation));
   if (!rotation) return Fail(ErrorCode::kBadOption, fmt::format("--rotation {}; must be LEAST:MOST in degrees", flags.rotation_deg));
@@ -93,7 +104,8 @@ void AddSimulate(CLI::App& app, Session& session) {
   sub->add_option("FILE.agraph", flags->plan, "the plan")->required();
   sub->add_option("-o,--output", flags->output, "the recording folder to write")->required()->type_name("REC");
   sub->add_option("--seed", o.seed, "of all random numbers; same seed, same recording");
-  sub->add_option("--deviate", o.deviate, "number of walls that are built off the plan");
+  sub->add_option("--deviate", flags->deviate, "walls that are built off the plan: their number, or a share of those that may be (25%), as far as they can")
+      ->type_name("N|N%");
   sub->add_option("--missing", o.missing, "number of planned walls that are not built");
   sub->add_option("--unplanned", o.unplanned, "number of walls that are built and not in the plan");
   sub->add_option("--translation", flags->translation, "least and largest displacement of such a wall, m")->type_name("LEAST:MOST");

@@ -177,6 +177,7 @@ std::string SimulateOptions::Check() const {
     return fmt::format("SimulateOptions.{} = {}; must be {}", field, value, rule);
   };
   if (deviate < 0) return bad("deviate", deviate, ">= 0");
+  if (!(deviate_ratio >= 0 && deviate_ratio <= 1)) return bad("deviate_ratio", deviate_ratio, "from 0 to 1");
   if (missing < 0) return bad("missing", missing, ">= 0");
   if (unplanned < 0) return bad("unplanned", unplanned, ">= 0");
   if (!(min_translation_m >= 0)) return bad("min_translation_m", min_translation_m, ">= 0");

@@ -16,7 +16,8 @@ namespace plumb::tools {
 
 struct SimulateOptions {
   uint64_t seed = 1;
-  int deviate = 3;                                            // walls that are built off the plan
+  int deviate = 3;                                            // walls that are built off the plan, ...
+  double deviate_ratio = 0;                                   // ... or, if positive, this share of those that may be, as far as they can
   int missing = 0;                                            // planned walls that were not built
   int unplanned = 0;                                          // walls that were built and are not in the plan
   double min_translation_m = 0.05, max_translation_m = 0.35;  // along the wall's normal, either way

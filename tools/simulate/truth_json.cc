@@ -43,6 +43,7 @@ Json ToJson(const UnplannedWall& w) {
 Json ToJson(const SimulateOptions& o) {
   return {{"seed", o.seed},
           {"deviate", o.deviate},
+          {"deviate_ratio", o.deviate_ratio},
           {"missing", o.missing},
           {"unplanned", o.unplanned},
           {"translation_m", {o.min_translation_m, o.max_translation_m}},

@@ -83,8 +83,8 @@ Evaluation Evaluate(const Run& run, const Truth& truth, const EvaluateOptions& o
   out.has_walls = truth.has_walls;
   if (!truth.has_walls) return out;
   out.walls = CompareWalls(truth, run.deviations, options.min_points);
-  out.missing = CompareMissing(truth, run.deviations, options.min_points);
-  out.unplanned = CompareUnplanned(truth, run.deviations, options.min_points);
+  out.missing = CompareMissing(truth, run.deviations, options.min_points, out.localized_scans > 0);
+  out.unplanned = CompareUnplanned(truth, run.deviations, options.min_points, out.localized_scans > 0);
   return out;
 }
 

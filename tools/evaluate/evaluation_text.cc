@@ -26,6 +26,7 @@ Json ErrorsToJson(const PoseErrors& e) {
 Json WallToJson(const WallResult& w) {
   Json out;
   out["wall_guid"] = w.guid;
+  if (!w.name.empty()) out["wall_name"] = w.name;
   out["outcome"] = WallOutcomeName(w.outcome);
   out["surface"] = w.surface.valid() ? Json(w.surface.value) : Json(nullptr);
   out["true_translation_m"] = w.true_translation_m;
@@ -77,14 +78,14 @@ void WriteWalls(const Evaluation& e, std::string& out) {
   out += ChangesLine("missing walls", e.missing);
   out += ChangesLine("unplanned walls", e.unplanned);
   if (e.walls.empty()) return;
-  fmt::format_to(write, "\n{:<24} {:<10} {:>10} {:>20} {:>10} {:>9} {:>9} {:>9}\n", "wall", "outcome", "truth m", "measured m", "error m", "truth deg",
+  fmt::format_to(write, "\n{:<24} {:>7} {:<10} {:>10} {:>20} {:>10} {:>9} {:>9} {:>9}\n", "wall", "surface", "outcome", "truth m", "measured m", "error m", "truth deg",
                  "meas. deg", "error deg");
   for (const WallResult& w : e.walls) {
     const bool reported = w.surface.valid(), found = w.measured();
     const auto number = [](bool show, int digits, double value) { return show ? fmt::format("{:+.{}f}", value, digits) : std::string("-"); };
     const std::string measured = reported ? fmt::format("{:+.3f} +- {:.3f}", w.measured_translation_m, w.sigma_translation_m) : "-";
-    fmt::format_to(write, "{:<24} {:<10} {:>+10.3f} {:>20} {:>10} {:>+9.2f} {:>9} {:>9}\n", w.guid, WallOutcomeName(w.outcome), w.true_translation_m,
-                   measured, found ? fmt::format("{:.3f}", w.error_translation_m) : "-", w.true_rotation_deg,
+    fmt::format_to(write, "{:<24} {:>7} {:<10} {:>+10.3f} {:>20} {:>10} {:>+9.2f} {:>9} {:>9}\n", w.name.empty() ? w.guid : w.name,
+                   reported ? fmt::format("{}", w.surface.value) : "-", WallOutcomeName(w.outcome), w.true_translation_m, measured, found ? fmt::format("{:.3f}", w.error_translation_m) : "-", w.true_rotation_deg,
                    number(reported, 2, w.measured_rotation_deg), found ? fmt::format("{:.2f}", w.error_rotation_deg) : "-");
   }
 }

@@ -26,6 +26,7 @@ std::vector<Eigen::Vector2d> ParsePolygon(const Json& json) {
 WallTruth ParseWall(const Json& json) {
   WallTruth wall;
   json.at("wall_guid").get_to(wall.guid);
+  wall.name = json.value("wall_name", "");
   json.at("translation_m").get_to(wall.translation_m);
   json.at("rotation_deg").get_to(wall.rotation_deg);
   for (const Json& s : json.at("surfaces")) {

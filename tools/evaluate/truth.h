@@ -22,6 +22,7 @@ struct WallTruth {
   std::string guid;
   double translation_m = 0, rotation_deg = 0;
   std::map<SurfaceId, SurfaceTruth> surfaces;
+  std::string name = {};  // empty: not recorded
   [[nodiscard]] bool deviates() const;
 };
 

@@ -5,6 +5,8 @@
 #include <set>
 #include <tuple>
 
+#include "schema/polygon.h"
+
 namespace plumb::tools {
 namespace {
 
@@ -21,13 +23,10 @@ double DistanceToSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, con
 }
 
 bool IsNear(const Eigen::Vector2d& p, const Polygon& polygon) {
-  bool inside = false;
   for (size_t i = 0; i < polygon.size(); ++i) {
-    const Eigen::Vector2d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-    if (DistanceToSegment(p, a, b) <= kNear_m) return true;
-    if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) inside = !inside;
+    if (DistanceToSegment(p, polygon[i], polygon[(i + 1) % polygon.size()]) <= kNear_m) return true;
   }
-  return inside;
+  return Contains(polygon, p);
 }
 
 // Points along the middle of the polygon, from the middle of its shortest side to that of the one that is farthest from it.
@@ -53,14 +52,14 @@ double CoveredBy(const Polygon& polygon, const std::vector<Polygon>& others) {
 
 }  // namespace
 
-std::vector<ChangeResult> CompareMissing(const Truth& truth, const Deviations& reported, double min_points) {
+std::vector<ChangeResult> CompareMissing(const Truth& truth, const Deviations& reported, double min_points, bool localized) {
   std::set<std::string> called_missing;
   for (const SurfaceEntry& s : reported.surfaces) {
     if (s.status == "missing") called_missing.insert(s.wall_guid);
   }
   std::vector<ChangeResult> results;
   for (const MissingTruth& wall : truth.missing) {
-    const WallOutcome otherwise = wall.rays_through >= min_points ? WallOutcome::kMissed : WallOutcome::kUnobserved;
+    const WallOutcome otherwise = localized && wall.rays_through >= min_points ? WallOutcome::kMissed : WallOutcome::kUnobserved;
     results.push_back({wall.guid, called_missing.erase(wall.guid) > 0 ? WallOutcome::kFound : otherwise, {}});
   }
   for (const std::string& guid : called_missing) results.push_back({guid, WallOutcome::kFalse, {}});
@@ -69,13 +68,13 @@ std::vector<ChangeResult> CompareMissing(const Truth& truth, const Deviations& r
   return results;
 }
 
-std::vector<ChangeResult> CompareUnplanned(const Truth& truth, const Deviations& reported, double min_points) {
+std::vector<ChangeResult> CompareUnplanned(const Truth& truth, const Deviations& reported, double min_points, bool localized) {
   std::vector<Polygon> found, real;
   for (const UnplannedEntry& w : reported.unplanned) found.push_back(w.polygon);
   for (const UnplannedTruth& w : truth.unplanned) real.push_back(w.polygon);
   std::vector<ChangeResult> results;
   for (const UnplannedTruth& w : truth.unplanned) {
-    const WallOutcome otherwise = w.points >= min_points ? WallOutcome::kMissed : WallOutcome::kUnobserved;
+    const WallOutcome otherwise = localized && w.points >= min_points ? WallOutcome::kMissed : WallOutcome::kUnobserved;
     results.push_back({"", CoveredBy(w.polygon, found) >= kCovered ? WallOutcome::kFound : otherwise, w.polygon});
   }
   for (const Polygon& polygon : found) {

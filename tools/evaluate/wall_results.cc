@@ -28,6 +28,17 @@ SurfaceTruth TruthOf(const WallTruth& wall, SurfaceId id) {
   return found != wall.surfaces.end() ? found->second : SurfaceTruth{wall.translation_m, wall.rotation_deg};
 }
 
+// Of the surfaces that are reported to deviate those that were observed, or all if none was: what was not seen is told by the other side.
+std::vector<const SurfaceEntry*> Deviating(const std::vector<const SurfaceEntry*>& surfaces) {
+  std::vector<const SurfaceEntry*> all, observed;
+  for (const SurfaceEntry* s : surfaces) {
+    if (!ReportedOff(*s)) continue;
+    all.push_back(s);
+    if (s->points > 0) observed.push_back(s);
+  }
+  return observed.empty() ? all : observed;
+}
+
 WallResult Reported(const SurfaceEntry& s, WallOutcome outcome, const SurfaceTruth& truth) {
   WallResult r;
   r.guid = s.wall_guid;
@@ -51,8 +62,7 @@ WallResult ResultOf(const WallTruth& wall, const std::vector<const SurfaceEntry*
   const bool judged = std::any_of(surfaces.begin(), surfaces.end(), [](const SurfaceEntry* s) { return s->status != "unobserved"; });
   const WallOutcome seen = judged ? WallOutcome::kMissed : WallOutcome::kUnjudged;
   worst.outcome = Observed(surfaces, truth, min_points) ? seen : WallOutcome::kUnobserved;
-  for (const SurfaceEntry* s : surfaces) {
-    if (!ReportedOff(*s)) continue;
+  for (const SurfaceEntry* s : Deviating(surfaces)) {
     WallResult r = Reported(*s, WallOutcome::kFound, TruthOf(wall, s->id));
     if (r.error_translation_m > std::max(kAccurate_m, kAccurateSigmas * r.sigma_translation_m)) r.outcome = WallOutcome::kInaccurate;
     if (!worst.measured() || r.error_translation_m > worst.error_translation_m) worst = r;
@@ -76,21 +86,26 @@ const char* WallOutcomeName(WallOutcome outcome) {
 
 std::vector<WallResult> CompareWalls(const Truth& truth, const Deviations& reported, double min_points) {
   SurfacesOfWall surfaces;
+  std::map<std::string, std::string> names;
   for (const SurfaceEntry& s : reported.surfaces) surfaces[s.wall_guid].push_back(&s);
   std::vector<WallResult> results;
   for (const WallTruth& wall : truth.walls) {
+    names[wall.guid] = wall.name;
     if (wall.deviates()) results.push_back(ResultOf(wall, surfaces[wall.guid], truth, min_points));
     if (wall.deviates()) surfaces.erase(wall.guid);
   }
   for (const auto& [guid, entries] : surfaces) {
     const SurfaceEntry* worst = nullptr;
-    for (const SurfaceEntry* s : entries) {
-      if (ReportedOff(*s) && (!worst || std::abs(s->translation_m) > std::abs(worst->translation_m))) worst = s;
+    for (const SurfaceEntry* s : Deviating(entries)) {
+      if (!worst || std::abs(s->translation_m) > std::abs(worst->translation_m)) worst = s;
     }
     if (!worst) continue;
     WallResult r = Reported(*worst, WallOutcome::kFalse, {});
     r.error_translation_m = r.error_rotation_deg = 0;
     results.push_back(r);
+  }
+  for (WallResult& r : results) {
+    if (const auto name = names.find(r.guid); name != names.end()) r.name = name->second;
   }
   std::sort(results.begin(), results.end(),
             [](const WallResult& a, const WallResult& b) { return std::tie(a.outcome, a.guid) < std::tie(b.outcome, b.guid); });

@@ -21,9 +21,10 @@ enum class WallOutcome : uint8_t {
 [[nodiscard]] const char* WallOutcomeName(WallOutcome outcome);  // found | inaccurate | missed | unjudged | unobserved | false
 
 struct WallResult {
-  std::string guid;
+  std::string guid, name;  // name: as truth.json has it; empty: not recorded
   WallOutcome outcome = WallOutcome::kMissed;
-  SurfaceId surface;  // found and inaccurate: the reported surface with the largest error; false: with the largest report; else none
+  SurfaceId surface;  // found and inaccurate: of the reported surfaces that were observed (of all if none was) that with the largest error;
+                      // false: likewise, with the largest report; else none
   double true_translation_m = 0, true_rotation_deg = 0;          // of that surface, or of the wall where there is none
   double measured_translation_m = 0, measured_rotation_deg = 0;  // found, inaccurate and false only
   double sigma_translation_m = 0;

@@ -89,7 +89,7 @@ TEST(Evaluate, ARunThatNeverLocalizedHasNoTime) {
 TEST(Evaluate, WritesTheSameFiguresAsTextAndJson) {
   Truth truth = MakeTruth();
   truth.has_walls = true;
-  truth.walls = {WallTruth{"wall-A", 0.2, 0, {}}};
+  truth.walls = {WallTruth{"wall-A", 0.2, 0, {}, "south wall"}};
   tools::Run run = MakeRun();
   SurfaceEntry s;
   s.id = SurfaceId(4);
@@ -101,8 +101,11 @@ TEST(Evaluate, WritesTheSameFiguresAsTextAndJson) {
   EXPECT_EQ(e.CountWalls(WallOutcome::kFound), 1u);
   EXPECT_NEAR(e.max_translation_error_m(), 0.014, 1e-12);
   EXPECT_THAT(EvaluationToText(e), HasSubstr("1 found, 0 inaccurate, 0 missed, 0 unjudged, 0 unobserved, 0 false"));
+  EXPECT_THAT(EvaluationToText(e), HasSubstr("south wall                     4 found"));
   const auto json = nlohmann::json::parse(EvaluationToJson(e));
   EXPECT_EQ(json.at("walls_found"), 1);
+  EXPECT_EQ(json.at("walls").at(0).at("wall_guid"), "wall-A");
+  EXPECT_EQ(json.at("walls").at(0).at("wall_name"), "south wall");
   EXPECT_NEAR(json.at("walls").at(0).at("error_translation_m").get<double>(), 0.014, 1e-12);
   EXPECT_NEAR(json.at("ate_rmse_m").get<double>(), 0.03, 1e-12);
 }

@@ -18,7 +18,7 @@ TEST(CompareMissing, TellsFoundMissedUnobservedAndFalseApart) {
   Truth truth;
   truth.missing = {{"A", 5000}, {"B", 5000}, {"C", 20}};
   const Deviations reported{"", {Entry("A", "missing"), Entry("A", "missing"), Entry("B", "as_planned"), Entry("C", "unobserved"), Entry("D", "missing")}, {}};
-  const auto results = CompareMissing(truth, reported, 200);
+  const auto results = CompareMissing(truth, reported, 200, true);
   ASSERT_EQ(results.size(), 4u);
   EXPECT_EQ(results[0].outcome, WallOutcome::kFound);
   EXPECT_EQ(results[0].guid, "A");
@@ -36,7 +36,7 @@ TEST(CompareUnplanned, IsFoundIfHalfOfItsLengthIsCoveredWithinTenCentimetres) {
   const auto outcome = [&](const std::vector<Eigen::Vector2d>& polygon) {
     Deviations reported;
     reported.unplanned = {{polygon, 2.5, RoomId()}};
-    return CompareUnplanned(truth, reported, 200);
+    return CompareUnplanned(truth, reported, 200, true);
   };
   EXPECT_EQ(outcome(Box(0.9, 0.08, 2, 0.2)).front().outcome, WallOutcome::kFound);   // 3 cm off, and more than half of it
   EXPECT_EQ(outcome(Box(1.2, 0, 2, 0.1)).front().outcome, WallOutcome::kMissed);     // too short
@@ -46,6 +46,25 @@ TEST(CompareUnplanned, IsFoundIfHalfOfItsLengthIsCoveredWithinTenCentimetres) {
   EXPECT_EQ(outcome(Box(0, 0.2, 2, 0.3)).back().outcome, WallOutcome::kFalse);
   truth.unplanned[0].points = 10;
   EXPECT_EQ(outcome(Box(5, 5, 7, 5.1)).front().outcome, WallOutcome::kUnobserved);
+}
+
+TEST(CompareUnplanned, APolygonCoversWhatIsInsideIt) {
+  Truth truth;
+  truth.unplanned = {{Box(0, 0, 2, 0.1), 1000}};
+  Deviations reported;
+  reported.unplanned = {{Box(-1, -1, 3, 1), 2.5, RoomId()}};  // no side of it within ten centimetres
+  EXPECT_EQ(CompareUnplanned(truth, reported, 200, true).front().outcome, WallOutcome::kFound);
+}
+
+TEST(CompareChanges, ARunThatNeverLocalizedMissesNothing) {
+  Truth truth;
+  truth.missing = {{"A", 5000}};
+  truth.unplanned = {{Box(0, 0, 2, 0.1), 5000}};
+  for (const auto& results : {CompareMissing(truth, {}, 200, false), CompareUnplanned(truth, {}, 200, false)}) {
+    ASSERT_EQ(results.size(), 1u);
+    EXPECT_EQ(results[0].outcome, WallOutcome::kUnobserved);
+    EXPECT_EQ(Recall(results), 1);
+  }
 }
 
 TEST(ParseTruth, ReadsMissingAndUnplannedWalls) {

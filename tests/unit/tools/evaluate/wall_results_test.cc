@@ -54,6 +54,20 @@ TEST(CompareWalls, TakesTheWorstReportedSideOfAWall) {
   EXPECT_NEAR(results[0].true_translation_m, -0.20, 1e-12);
 }
 
+TEST(CompareWalls, TakesASideThatWasSeenBeforeOneThatWasNot) {
+  SurfaceEntry seen = Entry(0, "A", "deviated", 0.21, 2), unseen = Entry(1, "A", "deviated", -0.10, 2);
+  SurfaceEntry slight = Entry(3, "C", "deviated", 0.05), large = Entry(4, "C", "deviated", -0.3);
+  seen.points = slight.points = 500;
+  const auto results = CompareWalls(MakeTruth(), {"", {seen, unseen, slight, large}, {}}, 200);
+  ASSERT_EQ(results.size(), 3u);
+  EXPECT_EQ(results[0].guid, "A");
+  EXPECT_EQ(results[0].outcome, WallOutcome::kFound);
+  EXPECT_EQ(results[0].surface, SurfaceId(0));
+  EXPECT_NEAR(results[0].error_translation_m, 0.01, 1e-12);
+  EXPECT_EQ(results[2].outcome, WallOutcome::kFalse);
+  EXPECT_EQ(results[2].surface, SurfaceId(3));
+}
+
 TEST(CompareWalls, WallsThatTheSensorDidNotSeeAreNotMissed) {
   Truth truth = MakeTruth();
   truth.surface_points = {{SurfaceId(0), 150}, {SurfaceId(1), 50}, {SurfaceId(2), 5000}};
@@ -93,11 +107,12 @@ TEST(CompareWalls, AWallThatTheRunDoesNotKnowIsUnobserved) {
 }
 
 TEST(ParseTruth, ReadsWallsAndPointCounts) {
-  const auto truth = ParseTruth(R"({"version":1,"walls":[{"wall_guid":"A","translation_m":0.2,"rotation_deg":-1.5,
+  const auto truth = ParseTruth(R"({"version":1,"walls":[{"wall_guid":"A","wall_name":"south wall","translation_m":0.2,"rotation_deg":-1.5,
     "surfaces":[{"id":7,"translation_m":-0.2,"rotation_deg":-1.5}]}],"surface_points":{"7":1234}})",
                                 "truth.json");
   ASSERT_TRUE(truth) << truth.error().message;
   ASSERT_EQ(truth->walls.size(), 1u);
+  EXPECT_EQ(truth->walls[0].name, "south wall");
   EXPECT_EQ(truth->walls[0].surfaces.at(SurfaceId(7)).translation_m, -0.2);
   EXPECT_EQ(truth->surface_points.at(SurfaceId(7)), 1234);
   EXPECT_TRUE(truth->walls[0].deviates());

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "runtime/deviations/panel.h"
+#include "runtime/deviations/planned_walls.h"
 #include "runtime/deviations/standing_walls.h"
 #include "runtime/matching/ray_caster.h"
 #include "schema/polygon.h"
@@ -34,7 +35,7 @@ constexpr double kMaxMirrored = 0.5;         // of the lines that end on it
 constexpr double kMaxOver = 0.02;            // of the lines that meet it
 constexpr double kMinStanding_m2 = 0.5;
 constexpr double kSample_m = 0.1;
-constexpr double kSameWall_m = 0.5;
+constexpr double kSameWall_m = 0.25, kSameWall_cos = 0.985;  // across and between two findings of one wall, which may be of either face
 
 // One face of something upright, of one map surface or several on one line. The panel's normal is into the free space.
 struct Candidate {
@@ -158,11 +159,30 @@ void Trim(Candidate* c) {
   c->top_m = {c->top_m.begin() + static_cast<std::ptrdiff_t>(best_from), c->top_m.begin() + static_cast<std::ptrdiff_t>(best_to)};
 }
 
+// Of a footprint, along its longest side.
+Panel CentreLine(const UnplannedWall& wall) {
+  Panel line;
+  const std::vector<Eigen::Vector2d>& p = wall.polygon;
+  Eigen::Vector2d longest = Eigen::Vector2d::Zero();
+  for (size_t i = 0; i < p.size(); ++i) {
+    const Eigen::Vector2d side = p[(i + 1) % p.size()] - p[i];
+    if (side.squaredNorm() > longest.squaredNorm()) longest = side;
+  }
+  if (longest.isZero()) return line;
+  line.along = longest.normalized();
+  line.normal = {-line.along.y(), line.along.x()};
+  Eigen::AlignedBox2d extent;
+  for (const Eigen::Vector2d& q : p) extent.extend(Eigen::Vector2d(line.along.dot(q), line.normal.dot(q)));
+  line.start = extent.min().x() * line.along + extent.center().y() * line.normal;
+  line.length_m = extent.sizes().x();
+  return line;
+}
+
 class Search {
  public:
   Search(const SGraph& map, const AGraph& plan, const std::vector<Match>& matches, const JointResult& estimate, const UnplannedOptions& options)
       : map_(map), plan_(plan), options_(options), T_plan_map_(estimate.T_plan_map), caster_(plan.mesh), standing_(plan, estimate, kMinStanding_m2),
-        faces_(UnmatchedFaces(map, matches, T_plan_map_)) {}
+        planned_(plan, matches), faces_(UnmatchedFaces(map, matches, T_plan_map_)) {}
 
   std::vector<UnplannedWall> Run() {
     std::erase_if(faces_, [&](Candidate& c) { return !CouldBeWall(c); });
@@ -303,6 +323,9 @@ class Search {
   [[nodiscard]] bool IsWall(const Candidate& front, const Candidate* back) const {
     // Beside a planned wall only what has two faces is another wall; else it is the front of something, or the planned wall itself.
     if (!back && PlannedShare(front, options_.wall_gate_m) >= kMaxExplained) return false;
+    Panel middle = front.panel;
+    if (back) middle.start += 0.5 * front.panel.W(back->panel.start + 0.5 * back->panel.length_m * back->panel.along) * front.panel.normal;
+    if (planned_.MayBeUnmatchedOne(middle, options_.wall_gate_m)) return false;
     const auto as_high_as_walls = [&](const Candidate& c) { return LengthAbove(c, c.required_top_m) >= std::max(options_.min_length_m, 0.5 * c.panel.length_m); };
     if (as_high_as_walls(front) || (back && as_high_as_walls(*back))) return true;
     if (!back) return false;
@@ -333,6 +356,7 @@ class Search {
   const Eigen::Isometry3d T_plan_map_;
   const RayCaster caster_;
   StandingWalls standing_;
+  const PlannedWalls planned_;
   std::vector<Candidate> faces_;
 };
 
@@ -351,12 +375,13 @@ std::string UnplannedOptions::Check() const {
 }
 
 bool SameWall(const UnplannedWall& a, const UnplannedWall& b) {
-  const auto middle = [](const UnplannedWall& w) {
-    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-    for (const Eigen::Vector2d& p : w.polygon) sum += p;
-    return Eigen::Vector2d(sum / static_cast<double>(std::max<size_t>(1, w.polygon.size())));
-  };
-  return (middle(a) - middle(b)).norm() < kSameWall_m;
+  Panel longer = CentreLine(a), shorter = CentreLine(b);
+  if (longer.length_m < shorter.length_m) std::swap(longer, shorter);
+  if (std::abs(longer.along.dot(shorter.along)) < kSameWall_cos) return false;
+  const Eigen::Vector2d end = shorter.start + shorter.length_m * shorter.along;
+  if (std::abs(longer.W(0.5 * (shorter.start + end))) > kSameWall_m) return false;
+  const double from = longer.U(shorter.start), to = longer.U(end);
+  return std::max(from, to) > 0 && std::min(from, to) < longer.length_m;
 }
 
 std::vector<UnplannedWall> FindUnplannedWalls(const SGraph& map, const AGraph& plan, const std::vector<Match>& matches, const JointResult& estimate,

@@ -35,11 +35,11 @@ struct UnplannedWall {
   RoomId room;                           // ... that it stands in
 };
 
-// Two findings of one wall: their middles are within half a metre.
+// Two findings of one wall, each of which may be of a part of it: along one line, to 10 degrees and 25 cm, and beside each other.
 [[nodiscard]] bool SameWall(const UnplannedWall& a, const UnplannedWall& b);
 
 // Only what stands in rooms of the plan: of what is outside, the plan says nothing. What may be furniture, the reflection in a mirror or pane, or a
-// planned wall that was not recognized is left out. None in a map of a planar laser. In the order of map surfaces.
+// planned wall that was not recognized is left out: also what the nearest planned wall may be that nothing was matched to. None in a map of a planar laser. In the order of map surfaces.
 // O(map surfaces^2 + keyframe points * surfaces passed). Deterministic.
 [[nodiscard]] std::vector<UnplannedWall> FindUnplannedWalls(const SGraph& map, const AGraph& plan, const std::vector<Match>& matches,
                                                             const JointResult& estimate, const UnplannedOptions& options = {});

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "tests/unit/runtime/deviations/built_house.h"
 
 namespace plumb::runtime {
@@ -16,6 +18,24 @@ std::vector<UnplannedWall> Unplanned(const AGraph& plan, const AGraph& as_built)
 AGraph With(const Eigen::Vector3d& lo, const Eigen::Vector3d& hi) {
   AGraph built = test::MakeHouse();
   test::AddThing(built, lo, hi);
+  return built;
+}
+
+// A partition is planned in room C, at y from 3.3 to 3.42 ...
+AGraph PlannedInC() {
+  AGraph plan = test::MakeHouse();
+  const WallId wall = test::AddWall(plan, "wall-in-C", {5.06, 3.3}, {7.2, 3.42});
+  test::AddSurface(plan, wall, RoomId(2), {5.06, 3.3}, {7.2, 3.3});
+  test::AddSurface(plan, wall, RoomId(2), {7.2, 3.42}, {5.06, 3.42});
+  return plan;
+}
+
+// ... and built further north, turned about its middle.
+AGraph PartitionInC(double offset_m, double turn_deg) {
+  AGraph built = PlannedInC();
+  const Eigen::Vector2d middle(6.13, 3.36);
+  test::Displace(built, "wall-in-C", Eigen::Translation2d(middle + Eigen::Vector2d(0, offset_m)) * Eigen::Rotation2Dd(turn_deg * std::numbers::pi / 180) *
+                                         Eigen::Translation2d(-middle));
   return built;
 }
 
@@ -37,6 +57,37 @@ TEST(FindUnplannedWalls, BothFacesOfAPartitionAreOneWall) {
   EXPECT_NEAR(box.max().x(), 7.2, 0.3);
   EXPECT_GT(walls[0].height_m, 1.4);
   EXPECT_EQ(house.rooms[walls[0].room.index()].center.x() > 5, true);
+}
+
+TEST(FindUnplannedWalls, APlannedWallThatStandsTooFarOffToBeRecognizedIsNone) {
+  for (const auto& [offset_m, turn_deg] : {std::pair{0.4, 8.0}, {0.55, 15.0}, {0.6, 25.0}}) {
+    const AGraph built = PartitionInC(offset_m, turn_deg);
+    EXPECT_EQ(Unplanned(test::MakeHouse(), built).size(), 1u) << "where no wall is planned";
+    EXPECT_TRUE(Unplanned(PlannedInC(), built).empty()) << offset_m << " m, " << turn_deg << " deg";
+  }
+}
+
+TEST(FindUnplannedWalls, BesideAPlannedWallThatWasRecognizedAnotherOneIsFound) {
+  const AGraph house = test::MakeHouse();
+  test::Survey s = test::DriveThrough(house, PartitionInC(0.55, 15));
+  const AGraph plan = PlannedInC();
+  ASSERT_FALSE(s.matches.empty());
+  Match match = s.matches.front();
+  match.plan_surface = SurfaceId(plan.surfaces.size() - 1);
+  s.matches.push_back(match);
+  EXPECT_EQ(FindUnplannedWalls(s.map, plan, s.matches, s.estimate).size(), 1u);
+}
+
+UnplannedWall Box(double x0, double y0, double x1, double y1) { return {{{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}, 2.5, RoomId(0)}; }
+
+TEST(SameWall, IsOneOnOneLineHoweverMuchOfItWasSeen) {
+  const UnplannedWall whole = Box(0, 0, 4, 0.12);
+  EXPECT_TRUE(SameWall(whole, whole));
+  EXPECT_TRUE(SameWall(whole, Box(2.1, 0.03, 4, 0.15)));
+  EXPECT_TRUE(SameWall(Box(2.1, 0.03, 4, 0.15), whole));
+  EXPECT_FALSE(SameWall(whole, Box(0, 0.4, 4, 0.52))) << "beside it";
+  EXPECT_FALSE(SameWall(whole, Box(4.9, 0, 6, 0.12))) << "beyond a doorway";
+  EXPECT_FALSE(SameWall(whole, Box(1.9, -1, 2.02, 1))) << "across";
 }
 
 TEST(FindUnplannedWalls, FurnitureIsNone) {

@@ -49,11 +49,11 @@ void SetProbabilities(MatchResult& result, double outside) {
   for (Hypothesis& h : result.hypotheses) h.probability = std::exp(h.log_likelihood - highest) / sum;
 }
 
-// Could `other` be the place as well as `best`? Where the evidence cannot tell, a hint may.
+// Could `other` be the place as well as `best`? Where the evidence cannot tell, a hint may; against the evidence it may not.
 bool IsRival(const Candidate& best, const Candidate& other, const MatcherOptions& options) {
-  if (best.score() - other.score() >= options.accept_margin_nats) return false;
-  const bool hinted = best.log_prior - other.log_prior >= options.hint_lead_nats;
-  return !hinted || best.rays.log_likelihood < other.rays.log_likelihood - options.hint_tie_nats;
+  if (other.rays.log_likelihood > best.rays.log_likelihood + options.hint_tie_nats) return true;
+  const double prior_lead = best.log_prior - other.log_prior;
+  return best.score() - other.score() < options.accept_margin_nats && prior_lead < options.hint_lead_nats;
 }
 
 }  // namespace

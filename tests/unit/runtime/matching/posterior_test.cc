@@ -63,6 +63,13 @@ TEST(Decide, AHintTellsApartWhatTheEvidenceDoesNot) {
   EXPECT_NEAR(overruled.hypotheses.front().log_likelihood, 120 - 6.9, 1e-9);
 }
 
+TEST(Decide, NoHintHoweverStrongOverrulesTheEvidence) {
+  Candidate hinted = Good(100), other = Good(102, 5);
+  hinted.log_prior = 11;
+  other.log_prior = -6.9;
+  EXPECT_EQ(Decided({hinted, other}).verdict, Verdict::kAmbiguous);
+}
+
 TEST(Decide, AHintIsNoEvidenceForThePlan) {
   Candidate poor = Good(9);
   poor.log_prior = 5;

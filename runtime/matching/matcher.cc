@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "runtime/matching/aliases.h"
+#include "runtime/matching/guidance.h"
 #include "runtime/matching/hypotheses.h"
 #include "runtime/matching/mirror.h"
 #include "runtime/matching/posterior.h"
@@ -205,6 +206,10 @@ MatchResult Matcher::Match(const SGraph& map, const StartHint& hint) const {
   if (result.verdict != MatchResult::Verdict::kUnique) return result;
   wrong.mirrored = impl_->MirroredLikelihood(view, finalists.front().fit.pose);
   return Decide(finalists, view, plan, search.options, wrong);
+}
+
+std::optional<Guidance> Matcher::Guide(const SGraph& map, const MatchResult& match, const Eigen::Isometry3d& T_map_lidar) const {
+  return runtime::Guide(impl_->search.plan, map, match, T_map_lidar, impl_->search.options);
 }
 
 double Matcher::Score(const SGraph& map, const Eigen::Isometry3d& T_plan_map) const {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -71,6 +72,8 @@ struct MatchResult {
   std::string reason;                  // why it is not unique yet; empty when it is
 };
 
+struct Guidance;
+
 class Matcher {
  public:
   // Keeps a reference to `plan`, which must outlive it.
@@ -79,6 +82,9 @@ class Matcher {
 
   // All hypotheses, from nothing or from a hint where the map's first keyframe was. Deterministic.
   [[nodiscard]] MatchResult Match(const SGraph& map, const StartHint& hint = {}) const;
+
+  // Where to drive so that the hypotheses of a match of `map` are told apart; see guidance.h.
+  [[nodiscard]] std::optional<Guidance> Guide(const SGraph& map, const MatchResult& match, const Eigen::Isometry3d& T_map_lidar) const;
 
   // Log-likelihood of one pose, on the same scale as Hypothesis::log_likelihood: for re-scoring an accepted fix against its rivals.
   [[nodiscard]] double Score(const SGraph& map, const Eigen::Isometry3d& T_plan_map) const;

@@ -34,6 +34,7 @@ struct MatcherOptions {
   int accept_min_planes = 5;                  // of the plan's walls that the map agrees with; one more for 4 rooms, two for 32, ...
   double accept_min_consistent_ratio = 0.35;  // of the map's wall length; the rest may be furniture and deviated walls
   double accept_max_through_ratio = 0.02;     // of the rays: may pass through walls of the plan
+  int ample_more_planes = 2;                  // this many more agree than are asked for: then vouch_max_through_ratio of the rays may
   // The building's size against the plan's: the walls tell it to within this with two sigmas, or the rays prefer the plan to one that is larger
   // or smaller by as much, by vouch_lead_nats.
   double accept_scale_error = 0.025;

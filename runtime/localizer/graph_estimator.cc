@@ -97,7 +97,9 @@ struct GraphEstimator::Impl {
       if (graph_search) return graph_search->Match(mapper.graph());
       return matcher.Match(mapper.graph(), odometry_map == 0 ? options.hint : StartHint());
     };
-    last_try = std::make_shared<const MatchTry>(MatchTry{stamp_s, mapper.T_map_odom() * T_odom_lidar, match_now()});
+    MatchTry attempt{stamp_s, mapper.T_map_odom() * T_odom_lidar, match_now(), std::nullopt};
+    if (!graph_search) attempt.guidance = matcher.Guide(mapper.graph(), attempt.result, attempt.T_map_lidar);
+    last_try = std::make_shared<const MatchTry>(std::move(attempt));
     const MatchResult& match = last_try->result;
     switch (match.verdict) {
       case MatchResult::Verdict::kSearching:

@@ -97,6 +97,7 @@ bool WallsTellScale(const WallFit& fit, const MatcherOptions& options) {
 std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, int required_planes, bool rays_vouch,
                   const std::optional<double>& scaled, const MatcherOptions& options) {
   const WallFit& fit = candidate.fit;
+  const bool ample = rays_vouch || fit.consistent_planes >= required_planes + options.ample_more_planes;
   if (rays_vouch) {
     const bool nearly_all = candidate.rays.explained_ratio >= options.vouch_nearly_all_ratio && candidate.rays.through_ratio <= options.accept_max_through_ratio;
     required_planes = std::min(required_planes, options.vouch_min_planes - (nearly_all ? 1 : 0));
@@ -111,7 +112,7 @@ std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, int 
   if (!rays_vouch && fit.consistent_ratio < options.accept_min_consistent_ratio) {
     return fmt::format("only {:.0f} % of the walls seen agree with the plan", 100 * fit.consistent_ratio);
   }
-  if (candidate.rays.through_ratio > (rays_vouch ? options.vouch_max_through_ratio : options.accept_max_through_ratio)) {
+  if (candidate.rays.through_ratio > (ample ? options.vouch_max_through_ratio : options.accept_max_through_ratio)) {
     return fmt::format("{:.1f} % of the rays went through walls of the plan", 100 * candidate.rays.through_ratio);
   }
   const bool rays_tell_scale = scaled && candidate.rays.log_likelihood - *scaled >= options.vouch_lead_nats;

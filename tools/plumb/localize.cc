@@ -319,6 +319,7 @@ Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
   if (!info.time_to_localize_s) {
     session.console.Info(fmt::format("{}: not localized in {} scans: {}", flags.output, info.scans, info.last_reason));
     if (localizer.T_plan_map()) return Status::kFindings;
+    if (!results->tries.empty() && results->tries.back().guidance) session.console.Info(Advice(*results->tries.back().guidance));
     session.console.Info(fmt::format("{}/hypotheses.json lists where it could be; drive through more rooms, or say --near or --room. If that does not help: another "
                                      "plan or storey? `plumb validate` looks at the plan, `plumb doctor` at the recording", flags.output));
     return Status::kFindings;

@@ -141,6 +141,20 @@ TEST(Doubt, FewPlanesAreEnoughOnlyWhereRaysVouch) {
   EXPECT_EQ(Decided({few}).verdict, Verdict::kSearching);
 }
 
+TEST(Doubt, RaysThroughWallsAreForgivenWhereMorePlanesAgreeThanAreAskedFor) {
+  const MatcherOptions options;
+  Candidate c = Good(100);
+  c.rays.through_ratio = 0.5 * (options.accept_max_through_ratio + options.vouch_max_through_ratio);
+  const auto doubt = [&] { return Doubt(c, Hypothesis(), c.fit.consistent_planes - options.ample_more_planes, false, std::nullopt, options); };
+  EXPECT_EQ(doubt(), "");
+  EXPECT_NE(Doubt(c, Hypothesis(), c.fit.consistent_planes, false, std::nullopt, options), "") << "just as many as asked for";
+  c.fit.consistent_ratio = 0.5 * options.accept_min_consistent_ratio;
+  EXPECT_NE(doubt(), "") << "most walls are elsewhere";
+  c.fit.consistent_ratio = 0.9;
+  c.rays.through_ratio = 1.1 * options.vouch_max_through_ratio;
+  EXPECT_NE(doubt(), "");
+}
+
 TEST(RequiredPlanes, GrowWithTheNumberOfRooms) {
   const MatcherOptions options;
   EXPECT_EQ(RequiredPlanes(1, 0, options), options.accept_min_planes);

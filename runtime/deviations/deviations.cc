@@ -83,6 +83,37 @@ SurfaceDeviation DeviationOfFace(const Face& face, const WallEstimate& wall, con
   return out;
 }
 
+// A wall that is not there has no deviation, only the evidence that it is not.
+void MarkMissing(const AGraph& plan, const WallChanges& changes, DeviationReport& report) {
+  for (size_t w = 0; w < changes.presence.size(); ++w) {
+    if (!changes.presence[w].missing) continue;
+    for (size_t i = 0; i < plan.surfaces.size(); ++i) {
+      if (plan.surfaces[i].wall != WallId(w)) continue;
+      report.surfaces[i] = {};
+      report.surfaces[i].surface = SurfaceId(i);
+      report.surfaces[i].status = SurfaceStatus::kMissing;
+    }
+    for (const FacePresence& face : changes.presence[w].faces) {
+      report.surfaces[face.surface.index()].observed_m2 = face.open_m2 + face.closed_m2;
+      report.surfaces[face.surface.index()].points = face.lines;
+    }
+  }
+}
+
+// " 3 of 20 seen walls deviate, 1 is missing.", by the surfaces' status.
+std::string CountsText(const AGraph& plan, const DeviationReport& report) {
+  std::vector<SurfaceStatus> gravest(plan.walls.size(), SurfaceStatus::kUnobserved);
+  for (const SurfaceDeviation& d : report.surfaces) {
+    const WallId wall = plan.surfaces[d.surface.index()].wall;
+    if (wall.valid() && d.status != SurfaceStatus::kUnobserved) gravest[wall.index()] = d.status;
+  }
+  const auto count = [&](SurfaceStatus status) { return std::count(gravest.begin(), gravest.end(), status); };
+  const auto deviated = count(SurfaceStatus::kDeviated), missing = count(SurfaceStatus::kMissing);
+  std::string text = fmt::format(" {} of {} seen walls deviate", deviated, deviated + count(SurfaceStatus::kAsPlanned));
+  if (missing > 0) text += fmt::format(", {} {} missing", missing, missing == 1 ? "is" : "are");
+  return text + ".";
+}
+
 }  // namespace
 
 const char* StatusName(SurfaceStatus status) {
@@ -105,10 +136,11 @@ std::string DeviationOptions::Check() const {
   for (const auto& [name, value] : magnitudes) {
     if (!(value >= 0)) return fmt::format("DeviationOptions.{} = {}; must be >= 0", name, value);
   }
-  return {};
+  if (std::string fault = presence.Check(); !fault.empty()) return fault;
+  return unplanned.Check();
 }
 
-DeviationReport AssessDeviations(const AGraph& plan, const JointResult& estimate, const DeviationOptions& options) {
+DeviationReport AssessDeviations(const AGraph& plan, const JointResult& estimate, const DeviationOptions& options, const WallChanges& changes) {
   DeviationReport report;
   report.gauge = estimate.gauge;
   report.surfaces.resize(plan.surfaces.size());
@@ -132,6 +164,9 @@ DeviationReport AssessDeviations(const AGraph& plan, const JointResult& estimate
     }
     report.surfaces[i] = d;
   }
+  MarkMissing(plan, changes, report);
+  report.unplanned = changes.unplanned;
+  if (!report.gauge.empty()) report.gauge += CountsText(plan, report);
   for (size_t r = 0; r < plan.rooms.size(); ++r) report.rooms.push_back(DeviationOfRoom(plan, RoomId(r), report.surfaces, options));
   return report;
 }

@@ -5,11 +5,13 @@
 #include <string>
 #include <vector>
 
+#include "runtime/deviations/unplanned_walls.h"
+#include "runtime/deviations/wall_presence.h"
 #include "runtime/optimization/joint_optimizer.h"
 
 namespace plumb::runtime {
 
-// kMissing (the plan has it, the building does not) needs rays that pass through and is not decided here.
+// kMissing: the plan has it, the building does not.
 enum class SurfaceStatus : uint8_t { kAsPlanned, kDeviated, kMissing, kUnobserved };
 [[nodiscard]] const char* StatusName(SurfaceStatus status);  // as_planned | deviated | missing | unobserved
 
@@ -22,6 +24,8 @@ struct DeviationOptions {
   double min_observed_m2 = 0.5;         // less, over all faces of a wall, was not seen well enough to judge
   double min_p_deviated = 0.95;
   double max_mdb_m = 0.2;               // a wall of which only larger deviations would have been found was not tested
+  PresenceOptions presence;
+  UnplannedOptions unplanned;
   [[nodiscard]] std::string Check() const;  // empty, or the field, its value and the rule
 };
 
@@ -33,8 +37,8 @@ struct SurfaceDeviation {
   double tilt_rad = 0;                                // + the normal turns upwards
   double p_deviated = 0;
   double mdb_m = std::numeric_limits<double>::infinity();  // minimal detectable deviation: what the test would find with 80 % (alpha 0.1 %)
-  double observed_m2 = 0;                             // of this surface alone
-  double points = 0;
+  double observed_m2 = 0;                             // of this surface alone; missing: of its place
+  double points = 0;                                  // missing: of those seen through it
 };
 
 // Rigid motion of the room in the plane, about its centre: what its walls moved, all in all.
@@ -50,13 +54,23 @@ struct DeviationReport {
   std::string gauge;
   std::vector<SurfaceDeviation> surfaces;  // one per plan surface
   std::vector<RoomDeviation> rooms;        // one per plan room
+  std::vector<UnplannedWall> unplanned;
+};
+
+// What is there without a plan, and what is not there.
+struct WallChanges {
+  std::vector<WallPresence> presence;  // per plan wall; empty: not judged
+  std::vector<UnplannedWall> unplanned;
+  [[nodiscard]] bool IsMissing(WallId wall) const { return wall.valid() && wall.index() < presence.size() && presence[wall.index()].missing; }
 };
 
 // Every face of a wall carries the wall's deviation, moved to the face's own midpoint and normal, plus its share of the thickness, and the
 // wall's status; ends of walls and curved surfaces stay unobserved. A wall deviates if Benjamini-Hochberg rejects "as planned" on the
 // chi-square (2 dof) of its evidence of (offset, yaw) plus tolerance, and it exceeds a minimum magnitude, and p_deviated is high. Where neither it nor a
 // deviation of max_mdb_m could have been told, the wall is unobserved, however much of it was seen.
-[[nodiscard]] DeviationReport AssessDeviations(const AGraph& plan, const JointResult& estimate, const DeviationOptions& options = {});
+// The faces of a wall that `changes` calls missing are missing, whatever the estimate. The gauge says how many walls deviate and are missing.
+[[nodiscard]] DeviationReport AssessDeviations(const AGraph& plan, const JointResult& estimate, const DeviationOptions& options = {},
+                                               const WallChanges& changes = {});
 
 // deviations.json, version 1.
 [[nodiscard]] std::string DeviationsToJson(const AGraph& plan, const DeviationReport& report);

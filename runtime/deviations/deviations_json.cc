@@ -47,6 +47,15 @@ Json RoomEntry(const AGraph& plan, const RoomDeviation& d) {
   return out;
 }
 
+Json UnplannedEntry(const UnplannedWall& w) {
+  Json out;
+  out["polygon"] = Json::array();
+  for (const Eigen::Vector2d& p : w.polygon) out["polygon"].push_back({Metres(p.x()), Metres(p.y())});
+  out["height_m"] = Metres(w.height_m);
+  out["room"] = w.room.value;
+  return out;
+}
+
 }  // namespace
 
 std::string DeviationsToJson(const AGraph& plan, const DeviationReport& report) {
@@ -58,6 +67,7 @@ std::string DeviationsToJson(const AGraph& plan, const DeviationReport& report) 
   out["rooms"] = Json::array();
   for (const RoomDeviation& d : report.rooms) out["rooms"].push_back(RoomEntry(plan, d));
   out["unplanned"] = Json::array();
+  for (const UnplannedWall& w : report.unplanned) out["unplanned"].push_back(UnplannedEntry(w));
   return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -55,6 +55,8 @@ struct GraphEstimator::Impl {
   Verdict verdict = Verdict::kSearching;
   std::shared_ptr<const MatchTry> last_try;  // of the present map
   JointResult joint;
+  std::vector<Match> matches;  // that `joint` is based on
+  WallChanges changes;         // as last judged
   Eigen::Isometry3d T_plan_map = Eigen::Isometry3d::Identity();  // of the last fix
   Eigen::Isometry3d T_by_rays = Eigen::Isometry3d::Identity();   // as the matcher found it
   bool ever_fixed = false;
@@ -71,6 +73,7 @@ struct GraphEstimator::Impl {
   Trajectory earlier_poses;
   std::vector<SurfaceDeviation> earlier_surfaces;
   std::vector<RoomDeviation> earlier_rooms;
+  std::vector<UnplannedWall> earlier_unplanned;
   bool news = false;  // solved since the last update
   Verdict told_verdict = Verdict::kSearching;
   std::atomic<bool> update_requested = false;
@@ -83,6 +86,8 @@ struct GraphEstimator::Impl {
     votes_against = 0;
     solve_due = rescore_due = false;
     joint = {};
+    matches.clear();
+    changes = {};
   }
 
   // Tries to find the map in the plan. A try that leaves several places open is no fix.
@@ -116,22 +121,31 @@ struct GraphEstimator::Impl {
     return out;
   }
 
-  [[nodiscard]] std::optional<JointResult> Solved(bool covariances) const {
-    const std::vector<Match> matches = MatchSurfaces(mapper.graph(), plan, T_plan_map, known, options.coupling);
-    if (matches.empty()) return std::nullopt;
+  struct Solution {
+    std::vector<Match> matches;
+    JointResult joint;
+  };
+
+  [[nodiscard]] std::optional<Solution> Solved(bool covariances) const {
+    Solution out;
+    out.matches = MatchSurfaces(mapper.graph(), plan, T_plan_map, known, options.coupling);
+    // Whatever stands where a wall is missing is not that wall.
+    std::erase_if(out.matches, [&](const Match& m) { return m.plan_surface.valid() && changes.IsMissing(plan.surfaces[m.plan_surface.index()].wall); });
+    if (out.matches.empty()) return std::nullopt;
     JointOptions joint_options = SolverOptions();
     joint_options.covariances = covariances;
-    JointResult result = OptimizeJointly(mapper.graph(), plan, matches, T_plan_map, joint_options);
-    if (result.T_map_kf.empty()) return std::nullopt;  // unusable; a solution short of its last digit is not
-    return result;
+    out.joint = OptimizeJointly(mapper.graph(), plan, out.matches, T_plan_map, joint_options);
+    if (out.joint.T_map_kf.empty()) return std::nullopt;  // unusable; a solution short of its last digit is not
+    return out;
   }
 
   // Couples map and plan at the current estimate and solves everything jointly. Covariances cost half of the time and steer nothing:
   // they are left out until somebody asks.
   void Optimize(bool covariances) {
-    std::optional<JointResult> result = Solved(covariances || tells_all());
-    if (!result) return;
-    joint = *std::move(result);
+    std::optional<Solution> solution = Solved(covariances || tells_all());
+    if (!solution) return;
+    joint = std::move(solution->joint);
+    matches = std::move(solution->matches);
     news = true;
     T_plan_map = joint.T_plan_map;
     for (const WallEstimate& wall : joint.walls) known[wall.wall.index()] = wall.deviation;
@@ -139,6 +153,16 @@ struct GraphEstimator::Impl {
     for (size_t i = 0; i < keyframes.size() && i < joint.T_map_kf.size(); ++i) keyframes[i].T_map_kf = joint.T_map_kf[i];
     mapper.OnPosesChanged();
     solved_all_at = num_keyframes;
+  }
+
+  // The last word on a map that lies in the plan: with covariances, and without the walls that are not there.
+  void OptimizeFinally() {
+    Optimize(true);
+    if (matches.empty()) return;
+    changes.presence = JudgePresence(mapper.graph(), plan, joint, options.deviations.presence);
+    const auto is_missing = [&](const WallEstimate& wall) { return changes.IsMissing(wall.wall); };
+    if (std::any_of(joint.walls.begin(), joint.walls.end(), is_missing)) Optimize(true);
+    changes.unplanned = FindUnplannedWalls(mapper.graph(), plan, matches, joint, options.deviations.unplanned);
   }
 
   // Without a plan the map can at least be made consistent by itself.
@@ -229,12 +253,13 @@ struct GraphEstimator::Impl {
   // Keeps what a map that lies in the plan has to say, before it is given up.
   void Archive() {
     mapper.Flush();
-    Optimize(true);
+    OptimizeFinally();
     const Trajectory poses = SmoothedPoses();
     earlier_poses.insert(earlier_poses.end(), poses.begin(), poses.end());
     DeviationReport report = Deviations(joint);
     earlier_surfaces = std::move(report.surfaces);
     earlier_rooms = std::move(report.rooms);
+    earlier_unplanned = std::move(report.unplanned);
   }
 
   [[nodiscard]] Trajectory SmoothedPoses() const {
@@ -256,20 +281,25 @@ struct GraphEstimator::Impl {
     if (!options.on_update || !(requested || (tells_all() && changed))) return;
     told_verdict = verdict;
     // The estimate at hand may be one without covariances, and without them nothing is judged.
-    std::optional<JointResult> fresh;
+    std::optional<Solution> fresh;
     if (requested && placed() && !joint.covariances_exact) fresh = Solved(true);
-    options.on_update({stamp_s, verdict, T_plan_map, Deviations(fresh ? *fresh : joint), requested});
+    options.on_update({stamp_s, verdict, T_plan_map, Deviations(fresh ? fresh->joint : joint), requested});
   }
 
   [[nodiscard]] DeviationReport Deviations(const JointResult& estimate) const {
     // What a planar laser takes for a wall may be the shelf in front of it: it is good enough to be found by, not to blame a wall for.
-    DeviationReport report = AssessDeviations(plan, mapper.graph().planar ? JointResult() : estimate, options.deviations);
+    DeviationReport report = AssessDeviations(plan, mapper.graph().planar ? JointResult() : estimate, options.deviations, changes);
     if (mapper.graph().planar) report.gauge = "A planar laser sees walls and furniture alike, on one line: walls are not judged.";
     for (size_t i = 0; i < earlier_surfaces.size(); ++i) {
       if (report.surfaces[i].status == SurfaceStatus::kUnobserved) report.surfaces[i] = earlier_surfaces[i];
     }
     for (size_t i = 0; i < earlier_rooms.size(); ++i) {
       if (report.rooms[i].status == SurfaceStatus::kUnobserved) report.rooms[i] = earlier_rooms[i];
+    }
+    for (const UnplannedWall& wall : earlier_unplanned) {
+      if (std::none_of(changes.unplanned.begin(), changes.unplanned.end(), [&](const UnplannedWall& w) { return SameWall(w, wall); })) {
+        report.unplanned.push_back(wall);
+      }
     }
     return report;
   }
@@ -306,7 +336,7 @@ void GraphEstimator::RequestUpdate() { impl_->update_requested = true; }
 void GraphEstimator::Finish() {
   impl_->mapper.Flush();
   if (impl_->placed()) {
-    impl_->Optimize(true);
+    impl_->OptimizeFinally();
   } else {
     impl_->Polish();
   }

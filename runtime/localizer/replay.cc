@@ -1,5 +1,6 @@
 #include "runtime/localizer/replay.h"
 
+#include <fmt/format.h>
 #include <oneapi/tbb/global_control.h>
 
 #include <algorithm>
@@ -126,9 +127,9 @@ void RunPipeline(const Recording& recording, const ReplayOptions& options, int n
 
 std::string ReplayOptions::Check() const {
   if (threads < 0) return "ReplayOptions.threads = " + std::to_string(threads) + "; must be >= 0";
-  if (!(rate >= 0 && rate <= 1000)) return "ReplayOptions.rate = " + std::to_string(rate) + "; must be in [0, 1000]";
-  if (!(start_s >= 0)) return "ReplayOptions.start_s = " + std::to_string(start_s) + "; must be >= 0";
-  if (!(max_duration_s >= 0)) return "ReplayOptions.max_duration_s = " + std::to_string(max_duration_s) + "; must be >= 0";
+  if (!(rate >= 0 && rate <= 1000)) return fmt::format("ReplayOptions.rate = {}; must be in [0, 1000]", rate);
+  if (!(start_s >= 0)) return fmt::format("ReplayOptions.start_s = {}; must be >= 0", start_s);
+  if (!(max_duration_s >= 0)) return fmt::format("ReplayOptions.max_duration_s = {}; must be >= 0", max_duration_s);
   return online.Check();
 }
 

@@ -49,8 +49,8 @@ void MergeKeyframe(uint32_t keyframe, uint32_t into, SGraph* graph) {
   Keyframe& merged = graph->keyframes[keyframe];
   merged.merged = Keyframe::Merged{into, graph->keyframes[into].T_map_kf.inverse() * merged.T_map_kf};
   graph->keyframes[into].smear.Cover(merged.smear.Rotated(merged.merged->T_into_kf.linear()));
-  merged.points.clear();
-  merged.points.shrink_to_fit();
+  merged.points = std::vector<Eigen::Vector3f>();  // an empty list in its place would keep the memory
+  merged.standpoints = std::vector<Keyframe::Standpoint>();
   for (MapSurface& surface : graph->surfaces) {
     std::vector<Observation>& observations = surface.observations;
     const auto seen = Find(observations, keyframe);
@@ -81,6 +81,7 @@ void BoundPoints(size_t max_points, std::vector<Keyframe>* keyframes) {
       for (size_t i = 0; i < count; ++i) points[i] = points[2 * i];
       points.resize(count);
       points.shrink_to_fit();
+      for (Keyframe::Standpoint& standpoint : keyframe.standpoints) standpoint.first_point = (standpoint.first_point + 1) / 2;
     }
   }
 }

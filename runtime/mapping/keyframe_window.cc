@@ -48,19 +48,28 @@ void KeyframeWindow::Add(const Scan& deskewed, const Eigen::Isometry3d& T_odom_l
   views_.push_back(std::move(view));
 }
 
-std::vector<Eigen::Vector3f> KeyframeWindow::ThinnedPoints() const {
-  std::vector<Eigen::Vector3f> thinned;
+ThinnedPoints KeyframeWindow::Thinned() const {
+  struct Sight {
+    Eigen::Vector3f point;
+    const View* view;
+  };
+  std::vector<Sight> sights;
   VoxelIndex voxels(16384);
   for (const View& view : views_) {
     for (const Eigen::Vector3f& p : view.points) {
-      if (voxels.Insert(VoxelKey(p.cast<double>() / options_.keyframe_voxel_m)).second) thinned.push_back(p);
+      if (voxels.Insert(VoxelKey(p.cast<double>() / options_.keyframe_voxel_m)).second) sights.push_back({p, &view});
     }
   }
-  const size_t step = thinned.size() / static_cast<size_t>(options_.max_keyframe_points) + 1;
-  for (size_t i = 0; i * step < thinned.size(); ++i) thinned[i] = thinned[i * step];
-  thinned.resize((thinned.size() + step - 1) / step);
-  thinned.shrink_to_fit();  // kept for as long as the map
-  return thinned;
+  const size_t step = sights.size() / static_cast<size_t>(options_.max_keyframe_points) + 1;
+  ThinnedPoints out;
+  out.points.reserve((sights.size() + step - 1) / step);  // kept for as long as the map: no more than that
+  const View* last = nullptr;
+  for (size_t i = 0; i < sights.size(); i += step) {
+    if (sights[i].view != last) out.standpoints.push_back({static_cast<uint32_t>(out.points.size()), sights[i].view->sensor.cast<float>()});
+    last = sights[i].view;
+    out.points.push_back(sights[i].point);
+  }
+  return out;
 }
 
 }  // namespace plumb::runtime

@@ -17,6 +17,11 @@ struct View {
   std::vector<Eigen::Vector3f> points;               // keyframe frame
 };
 
+struct ThinnedPoints {
+  std::vector<Eigen::Vector3f> points;  // keyframe frame
+  std::vector<Keyframe::Standpoint> standpoints;
+};
+
 class KeyframeWindow {
  public:
   // Opens at the lidar's pose T_odom_kf, which becomes the keyframe's.
@@ -33,8 +38,8 @@ class KeyframeWindow {
   [[nodiscard]] bool planar() const { return planar_; }
   [[nodiscard]] const Smear& smear() const { return smear_; }  // covers its scans'
 
-  // At most one point per voxel and max_keyframe_points, keyframe frame.
-  [[nodiscard]] std::vector<Eigen::Vector3f> ThinnedPoints() const;
+  // At most one point per voxel and max_keyframe_points.
+  [[nodiscard]] ThinnedPoints Thinned() const;
 
  private:
   MapperOptions options_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "runtime/mapping/keyframe_merging.h"
 #include "runtime/mapping/planar_segmentation.h"
@@ -99,7 +100,9 @@ bool Mapper::CloseWindow() {
   keyframe.stamp_s = window.stamp_s();
   keyframe.T_odom_kf = window.T_odom_kf();
   keyframe.T_map_kf = T_map_odom_ * window.T_odom_kf();
-  keyframe.points = window.ThinnedPoints();
+  ThinnedPoints thinned = window.Thinned();
+  keyframe.points = std::move(thinned.points);
+  keyframe.standpoints = std::move(thinned.standpoints);
   keyframe.smear = window.smear();
   if (keyframe.points.empty()) return false;
   if (!graph_.keyframes.empty()) {

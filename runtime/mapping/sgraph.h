@@ -83,6 +83,12 @@ struct Keyframe {
   Eigen::Isometry3d T_map_kf = Eigen::Isometry3d::Identity();   // current estimate
   Eigen::Isometry3d T_odom_kf = Eigen::Isometry3d::Identity();  // as odometry gave it, never changed
   std::vector<Eigen::Vector3f> points;                          // deskewed, down-sampled, keyframe frame
+  // Where the sensor was when it saw them: from `first_point` on up to the next entry's. Empty: always at the keyframe's origin.
+  struct Standpoint {
+    uint32_t first_point = 0;
+    Eigen::Vector3f sensor = Eigen::Vector3f::Zero();  // keyframe frame
+  };
+  std::vector<Standpoint> standpoints;
   // Along odometry's way from the first keyframe to this one, keyframe by keyframe.
   double travelled_m = 0, turned_rad = 0;
   Smear smear;  // by motion that nobody could take out of its sweeps, as they came without times

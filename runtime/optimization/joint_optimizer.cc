@@ -217,8 +217,7 @@ class Optimizer {
   }
 
   std::string GaugeText(const JointResult& result) const {
-    const auto deviated = std::count_if(result.walls.begin(), result.walls.end(), [](const WallEstimate& w) { return w.p_deviated > 0.5; });
-    std::string text = fmt::format("{}: {} of {} seen walls deviate.", GaugeRule(options_.mode), deviated, result.walls.size());
+    std::string text = GaugeRule(options_.mode) + std::string(".");
     for (const DirectionSupport& d : result.directions) {
       if (!d.ambiguous()) continue;
       text += fmt::format(" Along {:.0f} deg the frame is ambiguous: {} wall(s) agree with it, {} with another.",

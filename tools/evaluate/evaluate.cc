@@ -81,7 +81,10 @@ Evaluation Evaluate(const Run& run, const Truth& truth, const EvaluateOptions& o
   out.online = ComparePoses(Comparable(run.online, options), trajectory, options.max_truth_gap_s);
   out.smoothed = ComparePoses(Comparable(run.smoothed, options), trajectory, options.max_truth_gap_s);
   out.has_walls = truth.has_walls;
-  if (truth.has_walls) out.walls = CompareWalls(truth, run.deviations, options.min_points);
+  if (!truth.has_walls) return out;
+  out.walls = CompareWalls(truth, run.deviations, options.min_points);
+  out.missing = CompareMissing(truth, run.deviations, options.min_points);
+  out.unplanned = CompareUnplanned(truth, run.deviations, options.min_points);
   return out;
 }
 

@@ -9,6 +9,7 @@
 #include "schema/error.h"
 #include "tools/evaluate/pose_errors.h"
 #include "tools/evaluate/truth.h"
+#include "tools/evaluate/wall_changes.h"
 #include "tools/evaluate/wall_results.h"
 #include "tools/run/run_folder.h"
 
@@ -33,10 +34,11 @@ struct Evaluation {
   PoseErrors online, smoothed;
   bool has_walls = false;                      // the recording says how the walls were built
   std::vector<WallResult> walls;
+  std::vector<ChangeResult> missing, unplanned;
 
   [[nodiscard]] double localized_ratio() const { return scans == 0 ? 0 : static_cast<double>(localized_scans) / static_cast<double>(scans); }
   [[nodiscard]] size_t CountWalls(WallOutcome outcome) const;
-  // Over the walls found; 0 if there are none.
+  // Over the walls found, accurately or not; 0 if there are none.
   [[nodiscard]] double max_translation_error_m() const;
   [[nodiscard]] double max_rotation_error_deg() const;
 };

@@ -35,7 +35,7 @@ Json WallToJson(const WallResult& w) {
     out["sigma_translation_m"] = w.sigma_translation_m;
     out["rotation_deg"] = w.measured_rotation_deg;
   }
-  if (w.outcome == WallOutcome::kFound) {
+  if (w.measured()) {
     out["error_translation_m"] = w.error_translation_m;
     out["error_rotation_deg"] = w.error_rotation_deg;
   }
@@ -48,15 +48,39 @@ std::string PoseLine(const char* name, const PoseErrors& e) {
                      e.max_m, Degrees(e.yaw_rmse_rad), Degrees(e.yaw_max_rad), e.count);
 }
 
+std::string ChangesLine(const char* name, const std::vector<ChangeResult>& results) {
+  return fmt::format("{:<22} {} found, {} missed, {} unobserved, {} false\n", name, Count(results, WallOutcome::kFound), Count(results, WallOutcome::kMissed),
+                     Count(results, WallOutcome::kUnobserved), Count(results, WallOutcome::kFalse));
+}
+
+// Counts and shares as keys of the object itself, the walls in an array.
+void WriteChanges(const std::string& name, const std::vector<ChangeResult>& results, Json& out) {
+  for (const WallOutcome outcome : {WallOutcome::kFound, WallOutcome::kMissed, WallOutcome::kUnobserved, WallOutcome::kFalse}) {
+    out[name + "_" + WallOutcomeName(outcome)] = Count(results, outcome);
+  }
+  out[name + "_recall"] = Recall(results);
+  out[name + "_precision"] = Precision(results);
+  Json& list = out[name] = Json::array();
+  for (const ChangeResult& r : results) {
+    Json entry = {{"outcome", WallOutcomeName(r.outcome)}};
+    if (!r.guid.empty()) entry["wall_guid"] = r.guid;
+    for (const Eigen::Vector2d& p : r.polygon) entry["polygon"].push_back({p.x(), p.y()});
+    list.push_back(entry);
+  }
+}
+
 void WriteWalls(const Evaluation& e, std::string& out) {
   auto write = std::back_inserter(out);
-  fmt::format_to(write, "{:<22} {} found, {} missed, {} unobserved, {} false\n", "deviated walls", e.CountWalls(WallOutcome::kFound),
-                 e.CountWalls(WallOutcome::kMissed), e.CountWalls(WallOutcome::kUnobserved), e.CountWalls(WallOutcome::kFalse));
+  fmt::format_to(write, "{:<22} {} found, {} inaccurate, {} missed, {} unjudged, {} unobserved, {} false\n", "deviated walls", e.CountWalls(WallOutcome::kFound),
+                 e.CountWalls(WallOutcome::kInaccurate), e.CountWalls(WallOutcome::kMissed), e.CountWalls(WallOutcome::kUnjudged),
+                 e.CountWalls(WallOutcome::kUnobserved), e.CountWalls(WallOutcome::kFalse));
+  out += ChangesLine("missing walls", e.missing);
+  out += ChangesLine("unplanned walls", e.unplanned);
   if (e.walls.empty()) return;
   fmt::format_to(write, "\n{:<24} {:<10} {:>10} {:>20} {:>10} {:>9} {:>9} {:>9}\n", "wall", "outcome", "truth m", "measured m", "error m", "truth deg",
                  "meas. deg", "error deg");
   for (const WallResult& w : e.walls) {
-    const bool reported = w.surface.valid(), found = w.outcome == WallOutcome::kFound;
+    const bool reported = w.surface.valid(), found = w.measured();
     const auto number = [](bool show, int digits, double value) { return show ? fmt::format("{:+.{}f}", value, digits) : std::string("-"); };
     const std::string measured = reported ? fmt::format("{:+.3f} +- {:.3f}", w.measured_translation_m, w.sigma_translation_m) : "-";
     fmt::format_to(write, "{:<24} {:<10} {:>+10.3f} {:>20} {:>10} {:>+9.2f} {:>9} {:>9}\n", w.guid, WallOutcomeName(w.outcome), w.true_translation_m,
@@ -99,6 +123,8 @@ std::string EvaluationToJson(const Evaluation& e) {
   out["yaw_rmse_deg"] = e.online.count > 0 ? Json(Degrees(e.online.yaw_rmse_rad)) : Json(nullptr);
   out["walls_found"] = e.CountWalls(WallOutcome::kFound);
   out["walls_missed"] = e.CountWalls(WallOutcome::kMissed);
+  out["walls_inaccurate"] = e.CountWalls(WallOutcome::kInaccurate);
+  out["walls_unjudged"] = e.CountWalls(WallOutcome::kUnjudged);
   out["walls_unobserved"] = e.CountWalls(WallOutcome::kUnobserved);
   out["walls_false"] = e.CountWalls(WallOutcome::kFalse);
   out["max_error_translation_m"] = e.max_translation_error_m();
@@ -107,6 +133,8 @@ std::string EvaluationToJson(const Evaluation& e) {
   out["smoothed"] = ErrorsToJson(e.smoothed);
   out["walls"] = Json::array();
   for (const WallResult& w : e.walls) out["walls"].push_back(WallToJson(w));
+  WriteChanges("missing", e.missing, out);
+  WriteChanges("unplanned", e.unplanned, out);
   return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -17,6 +17,12 @@ using Json = nlohmann::json;
 
 bool IsOff(double translation_m, double rotation_deg) { return std::abs(translation_m) > 1e-6 || std::abs(rotation_deg) > 1e-6; }
 
+std::vector<Eigen::Vector2d> ParsePolygon(const Json& json) {
+  std::vector<Eigen::Vector2d> polygon;
+  for (const Json& p : json) polygon.emplace_back(p.at(0).get<double>(), p.at(1).get<double>());
+  return polygon;
+}
+
 WallTruth ParseWall(const Json& json) {
   WallTruth wall;
   json.at("wall_guid").get_to(wall.guid);
@@ -45,6 +51,11 @@ Expected<Truth> ParseTruth(const std::string& json, const std::string& source) {
     if (root.value("incomplete", false)) return Fail(ErrorCode::kNotARecording, fmt::format("`{}`: the simulation was broken off", source));
     if (const auto plan = root.find("plan"); plan != root.end()) truth.plan_source_sha256 = plan->value("sha256", "");
     for (const Json& wall : root.at("walls")) truth.walls.push_back(ParseWall(wall));
+    for (const Json& m : root.value("missing", Json::array())) truth.missing.push_back({m.at("wall_guid"), m.at("rays_through")});
+    for (const Json& u : root.value("unplanned", Json::array())) {
+      truth.unplanned.push_back({ParsePolygon(u.at("polygon")), u.at("points")});
+      if (truth.unplanned.back().polygon.size() < 3) return Fail(ErrorCode::kNotARecording, fmt::format("`{}`: a polygon of `unplanned` has fewer than 3 corners", source));
+    }
     const Json points = root.value("surface_points", Json::object());
     for (const auto& [key, count] : points.items()) {
       uint32_t id = 0;

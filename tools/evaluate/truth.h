@@ -1,6 +1,7 @@
 // truth.json and truth.tum of a recording folder: what the building and the drive really were.
 #pragma once
 
+#include <Eigen/Core>
 #include <map>
 #include <string>
 #include <vector>
@@ -24,9 +25,23 @@ struct WallTruth {
   [[nodiscard]] bool deviates() const;
 };
 
+// A planned wall that was not built.
+struct MissingTruth {
+  std::string guid;
+  double rays_through = 0;  // that went right through its place
+};
+
+// A wall that was built and is not in the plan.
+struct UnplannedTruth {
+  std::vector<Eigen::Vector2d> polygon;  // plan frame
+  double points = 0;                     // returns from it
+};
+
 struct Truth {
   runtime::Trajectory trajectory;             // sensor in the plan frame
   std::vector<WallTruth> walls;               // in the file's order; walls that are not listed are as planned
+  std::vector<MissingTruth> missing;
+  std::vector<UnplannedTruth> unplanned;
   std::map<SurfaceId, double> surface_points; // returns that hit each surface; empty: not recorded
   std::string plan_source_sha256;             // of the plan that the recording was simulated in; empty: not recorded
   bool has_walls = false;                     // false: the recording has no truth.json

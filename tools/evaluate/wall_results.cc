@@ -10,7 +10,9 @@ namespace {
 
 using SurfacesOfWall = std::map<std::string, std::vector<const SurfaceEntry*>>;
 
-bool ReportedOff(const SurfaceEntry& s) { return s.status == "deviated" || s.status == "missing"; }
+constexpr double kAccurate_m = 0.04, kAccurateSigmas = 2;
+
+bool ReportedOff(const SurfaceEntry& s) { return s.status == "deviated"; }
 
 bool Observed(const std::vector<const SurfaceEntry*>& surfaces, const Truth& truth, double min_points) {
   return std::any_of(surfaces.begin(), surfaces.end(), [&](const SurfaceEntry* s) {
@@ -46,11 +48,14 @@ WallResult ResultOf(const WallTruth& wall, const std::vector<const SurfaceEntry*
   worst.guid = wall.guid;
   worst.true_translation_m = wall.translation_m;
   worst.true_rotation_deg = wall.rotation_deg;
-  worst.outcome = Observed(surfaces, truth, min_points) ? WallOutcome::kMissed : WallOutcome::kUnobserved;
+  const bool judged = std::any_of(surfaces.begin(), surfaces.end(), [](const SurfaceEntry* s) { return s->status != "unobserved"; });
+  const WallOutcome seen = judged ? WallOutcome::kMissed : WallOutcome::kUnjudged;
+  worst.outcome = Observed(surfaces, truth, min_points) ? seen : WallOutcome::kUnobserved;
   for (const SurfaceEntry* s : surfaces) {
     if (!ReportedOff(*s)) continue;
-    const WallResult r = Reported(*s, WallOutcome::kFound, TruthOf(wall, s->id));
-    if (worst.outcome != WallOutcome::kFound || r.error_translation_m > worst.error_translation_m) worst = r;
+    WallResult r = Reported(*s, WallOutcome::kFound, TruthOf(wall, s->id));
+    if (r.error_translation_m > std::max(kAccurate_m, kAccurateSigmas * r.sigma_translation_m)) r.outcome = WallOutcome::kInaccurate;
+    if (!worst.measured() || r.error_translation_m > worst.error_translation_m) worst = r;
   }
   return worst;
 }
@@ -60,7 +65,9 @@ WallResult ResultOf(const WallTruth& wall, const std::vector<const SurfaceEntry*
 const char* WallOutcomeName(WallOutcome outcome) {
   switch (outcome) {
     case WallOutcome::kFound: return "found";
+    case WallOutcome::kInaccurate: return "inaccurate";
     case WallOutcome::kMissed: return "missed";
+    case WallOutcome::kUnjudged: return "unjudged";
     case WallOutcome::kUnobserved: return "unobserved";
     case WallOutcome::kFalse: return "false";
   }

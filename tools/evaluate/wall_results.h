@@ -11,24 +11,27 @@
 namespace plumb::tools {
 
 enum class WallOutcome : uint8_t {
-  kFound,       // deviates, and a surface of it is reported `deviated` (or `missing`)
-  kMissed,      // deviates and was observed, but is reported as planned
+  kFound,       // deviates, and a surface of it is reported `deviated`, by the right amount
+  kInaccurate,  // the same, but the displacement is off by more than two of its sigmas and more than 4 cm
+  kMissed,      // deviates and was observed, but is reported as planned (or missing)
+  kUnjudged,    // deviates and was observed, but the run calls it `unobserved`
   kUnobserved,  // deviates, but the sensor saw too little of it
   kFalse,       // reported as deviating, but stands as planned
 };
-[[nodiscard]] const char* WallOutcomeName(WallOutcome outcome);  // found | missed | unobserved | false
+[[nodiscard]] const char* WallOutcomeName(WallOutcome outcome);  // found | inaccurate | missed | unjudged | unobserved | false
 
 struct WallResult {
   std::string guid;
   WallOutcome outcome = WallOutcome::kMissed;
-  SurfaceId surface;  // found: the reported surface with the largest error; false: with the largest report; else none
+  SurfaceId surface;  // found and inaccurate: the reported surface with the largest error; false: with the largest report; else none
   double true_translation_m = 0, true_rotation_deg = 0;          // of that surface, or of the wall where there is none
-  double measured_translation_m = 0, measured_rotation_deg = 0;  // found and false only
+  double measured_translation_m = 0, measured_rotation_deg = 0;  // found, inaccurate and false only
   double sigma_translation_m = 0;
-  double error_translation_m = 0, error_rotation_deg = 0;        // absolute; found only
+  double error_translation_m = 0, error_rotation_deg = 0;        // absolute; found and inaccurate only
+  [[nodiscard]] bool measured() const { return outcome == WallOutcome::kFound || outcome == WallOutcome::kInaccurate; }
 };
 
-// One entry per wall that deviates or is reported to, by outcome, then by guid. Walls are told apart by wall_guid. A wall counts as observed
+// One entry per wall that deviates or is reported to (missing walls are CompareMissing()'s), by outcome, then by guid. Walls are told apart by wall_guid. A wall counts as observed
 // when at least `min_points` returns hit one of its surfaces (truth.json), or where that was not recorded, when the run says so.
 [[nodiscard]] std::vector<WallResult> CompareWalls(const Truth& truth, const Deviations& reported, double min_points);
 

@@ -7,14 +7,15 @@
 #include <memory>
 #include <numbers>
 #include <set>
-#include <unordered_set>
 
 #include "runtime/localizer/replay.h"
 #include "runtime/rooms/sgraph_json.h"
 #include "schema/agraph_reader.h"
 #include "schema/files.h"
+#include "tools/plumb/as_built_cloud.h"
 #include "tools/plumb/command.h"
 #include "tools/plumb/config.h"
+#include "tools/plumb/flag_names.h"
 #include "tools/plumb/interrupt.h"
 #include "tools/plumb/match_rows.h"
 #include "tools/plumb/updates.h"
@@ -158,39 +159,10 @@ class Replayer {
   runtime::Localizer* drained_ = nullptr;
 };
 
-struct Voxel {
-  int64_t x = 0, y = 0, z = 0;
-  friend bool operator==(const Voxel&, const Voxel&) = default;
-};
-struct VoxelHash {
-  size_t operator()(const Voxel& v) const noexcept {
-    return static_cast<size_t>(v.x) * 73856093u ^ static_cast<size_t>(v.y) * 19349663u ^ static_cast<size_t>(v.z) * 83492791u;
-  }
-};
-
-// The keyframes' points, the first of each voxel: in the plan frame, or the map's own where nobody knows where in the plan it lies.
-std::vector<Eigen::Vector3d> AsBuiltCloud(const runtime::Localizer& localizer, double voxel_m) {
-  std::vector<Eigen::Vector3d> cloud;
-  const Eigen::Isometry3d T_plan_map = localizer.T_plan_map().value_or(Eigen::Isometry3d::Identity());
-  std::unordered_set<Voxel, VoxelHash> taken;
-  for (const runtime::Keyframe& keyframe : localizer.map().keyframes) {
-    const Eigen::Isometry3d T_plan_kf = T_plan_map * keyframe.T_map_kf;
-    for (const Eigen::Vector3f& point : keyframe.points) {
-      const Eigen::Vector3d p = T_plan_kf * point.cast<double>();
-      const Eigen::Vector3d cell = (p / voxel_m).array().floor();
-      const Voxel voxel{static_cast<int64_t>(cell.x()), static_cast<int64_t>(cell.y()), static_cast<int64_t>(cell.z())};
-      if (taken.insert(voxel).second) cloud.push_back(p);
-    }
-  }
-  return cloud;
-}
-
-size_t CountDeviatedWalls(const AGraph& plan, const runtime::DeviationReport& report) {
+size_t CountWalls(const AGraph& plan, const runtime::DeviationReport& report, runtime::SurfaceStatus status) {
   std::set<WallId> walls;
   for (const runtime::SurfaceDeviation& s : report.surfaces) {
-    if (s.status == runtime::SurfaceStatus::kDeviated || s.status == runtime::SurfaceStatus::kMissing) {
-      walls.insert(plan.surfaces[s.surface.index()].wall);
-    }
+    if (s.status == status) walls.insert(plan.surfaces[s.surface.index()].wall);
   }
   return walls.size();
 }
@@ -220,7 +192,9 @@ RunInfo Describe(const LocalizeFlags& flags, const CLI::App& sub, const AGraph& 
   info.planar = localizer.map().planar;
   info.keyframes = static_cast<size_t>(std::count_if(localizer.map().keyframes.begin(), localizer.map().keyframes.end(),
                                                      [](const runtime::Keyframe& keyframe) { return !keyframe.merged; }));
-  info.deviated_walls = CountDeviatedWalls(plan, report);
+  info.deviated_walls = CountWalls(plan, report, runtime::SurfaceStatus::kDeviated);
+  info.missing_walls = CountWalls(plan, report, runtime::SurfaceStatus::kMissing);
+  info.unplanned_walls = report.unplanned.size();
   info.range_bias_m = localizer.estimate().range_bias_m;
   info.pace = results.pace;
   double total_ms = 0;
@@ -276,7 +250,7 @@ Expected<runtime::StartHint> HintOf(const LocalizeFlags& flags, const AGraph& pl
   if (hint.given() && flags.options.matcher_kind == runtime::MatcherKind::kGraph) {
     return Fail(ErrorCode::kBadOption, "--near and --room go with --matcher wall; the graph matcher takes no hints");
   }
-  if (std::string wrong = hint.Check(); !wrong.empty()) return Fail(ErrorCode::kBadOption, std::move(wrong));
+  if (const std::string wrong = hint.Check(); !wrong.empty()) return Fail(ErrorCode::kBadOption, InFlags(wrong));
   return hint;
 }
 
@@ -292,10 +266,11 @@ Expected<void> PrepareOutput(const std::string& folder) {
 }
 
 Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
+  if (!(flags.tolerance_deg >= 0)) return session.Fail({ErrorCode::kBadOption, fmt::format("--tolerance-angle {}; must be >= 0", flags.tolerance_deg)});
   flags.options.deviations.min_yaw_rad = flags.tolerance_deg * std::numbers::pi / 180;
   flags.replay.given_odometry = !flags.no_odometry;
   for (const std::string& wrong : {flags.options.Check(), flags.replay.Check()}) {
-    if (!wrong.empty()) return session.Fail({ErrorCode::kBadOption, wrong});
+    if (!wrong.empty()) return session.Fail({ErrorCode::kBadOption, InFlags(wrong)});
   }
   if (!(flags.map_voxel_m > 0)) return session.Fail({ErrorCode::kBadOption, fmt::format("--map-voxel {}; must be positive", flags.map_voxel_m)});
   const auto plan = ReadAGraphFile(flags.plan);
@@ -330,8 +305,9 @@ Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
     session.console.Info("drive through more rooms; if that does not help: another plan or storey? `plumb validate` looks at the plan, `plumb doctor` at the recording");
     return Status::kFindings;
   }
-  session.console.Info(fmt::format("{}: localized after {:.1f} s, {} of {} scans; {} walls deviate; {:.0f} ms per scan", flags.output,
-                                   *info.time_to_localize_s, info.localized_scans, info.scans, info.deviated_walls, info.ms_per_scan));
+  session.console.Info(fmt::format("{}: localized after {:.1f} s, {} of {} scans; {} walls deviate, {} are missing, {} unplanned; {:.0f} ms per scan", flags.output,
+                                   *info.time_to_localize_s, info.localized_scans, info.scans, info.deviated_walls, info.missing_walls,
+                                   info.unplanned_walls, info.ms_per_scan));
   if (info.pace) {
     session.console.Info(fmt::format("{}: poses {:.0f} ms after their scan (99 %: {:.0f} ms); {} keyframes solved later, {} scans not mapped", flags.output,
                                      info.pace->latency_p50_ms, info.pace->latency_p99_ms, info.pace->held_solves, info.pace->unmapped_scans));

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <numbers>
@@ -11,6 +12,7 @@
 
 #include "schema/agraph_reader.h"
 #include "tools/plumb/command.h"
+#include "tools/plumb/flag_names.h"
 #include "tools/simulate/sensor.h"
 
 namespace plumb::tools {
@@ -18,8 +20,9 @@ namespace {
 
 struct SimulateFlags {
   std::string plan, output;
+  std::string deviate = "3";
   std::string translation = "0.05:0.35", rotation_deg = "0:5";
-  bool force = false;
+  bool force = false, duration_given = false;
   SimulateOptions options;
 };
 
@@ -35,14 +38,29 @@ std::optional<std::pair<double, double>> ParseRange(const std::string& text) {
 
 Expected<SimulateOptions> OptionsOf(const SimulateFlags& flags) {
   SimulateOptions options = flags.options;
+  if (!flags.deviate.empty() && flags.deviate.back() == '%') {
+    if (!CLI::detail::lexical_cast(flags.deviate.substr(0, flags.deviate.size() - 1), options.deviate_ratio) ||
+        !(options.deviate_ratio >= 0 && options.deviate_ratio <= 100)) {
+      return Fail(ErrorCode::kBadOption, fmt::format("--deviate {}; must be a number, or a share from 0% to 100%", flags.deviate));
+    }
+    options.deviate_ratio /= 100;
+    options.deviate = 0;
+  } else if (!CLI::detail::lexical_cast(flags.deviate, options.deviate)) {
+    return Fail(ErrorCode::kBadOption, fmt::format("--deviate {}; must be a number, or a share from 0% to 100%", flags.deviate));
+  }
   const auto translation = ParseRange(flags.translation), rotation = ParseRange(flags.rotation_deg);
   if (!translation) return Fail(ErrorCode::kBadOption, fmt::format("--translation {}; must be LEAST:MOST in metres", flags.translation));
   if (!rotation) return Fail(ErrorCode::kBadOption, fmt::format("--rotation {}; must be LEAST:MOST in degrees", flags.rotation_deg));
+  const auto within = [](const std::pair<double, double>& range, double most) { return range.first >= 0 && range.second >= range.first && range.second <= most; };
+  if (!within(*translation, 2)) return Fail(ErrorCode::kBadOption, fmt::format("--translation {}; must be within 0:2 m, the least first", flags.translation));
+  if (!within(*rotation, 30)) return Fail(ErrorCode::kBadOption, fmt::format("--rotation {}; must be within 0:30 deg, the least first", flags.rotation_deg));
   constexpr double kRadPerDeg = std::numbers::pi / 180;
   std::tie(options.min_translation_m, options.max_translation_m) = *translation;
   options.min_rotation_rad = rotation->first * kRadPerDeg;
   options.max_rotation_rad = rotation->second * kRadPerDeg;
-  if (std::string wrong = options.Check(); !wrong.empty()) return Fail(ErrorCode::kBadOption, std::move(wrong));
+  // Whoever asks for a short recording does not mean the usual length.
+  if (!flags.duration_given) options.min_duration_s = std::min(options.min_duration_s, options.max_duration_s);
+  if (const std::string wrong = options.Check(); !wrong.empty()) return Fail(ErrorCode::kBadOption, InFlags(wrong));
   return options;
 }
 
@@ -67,9 +85,9 @@ Status RunSimulate(const SimulateFlags& flags, Session& session) {
   if (!plan) return session.Fail(plan.error());
   const auto done = Simulate(*plan, *options, flags.output, [&](size_t i, size_t n) { session.console.Progress("simulating", i, n); });
   if (!done) return session.Fail(done.error());
-  session.console.Info(fmt::format("{}: {} scans in {:.1f} s over {:.1f} m, {} of {} rooms visited, {} walls off their plan", flags.output, done->scans,
+  session.console.Info(fmt::format("{}: {} scans in {:.1f} s over {:.1f} m, {} of {} rooms visited, {} walls off their plan, {} missing, {} unplanned", flags.output, done->scans,
                                    done->duration_s, done->path_m, done->visited.size(), done->visited.size() + done->not_visited.size(),
-                                   done->walls.size()));
+                                   done->walls.size(), done->missing.size(), done->unplanned.size()));
   return Status::kFine;
 }
 
@@ -86,7 +104,10 @@ void AddSimulate(CLI::App& app, Session& session) {
   sub->add_option("FILE.agraph", flags->plan, "the plan")->required();
   sub->add_option("-o,--output", flags->output, "the recording folder to write")->required()->type_name("REC");
   sub->add_option("--seed", o.seed, "of all random numbers; same seed, same recording");
-  sub->add_option("--deviate", o.deviate, "number of walls that are built off the plan");
+  sub->add_option("--deviate", flags->deviate, "walls that are built off the plan: their number, or a share of those that may be (25%), as far as they can")
+      ->type_name("N|N%");
+  sub->add_option("--missing", o.missing, "number of planned walls that are not built");
+  sub->add_option("--unplanned", o.unplanned, "number of walls that are built and not in the plan");
   sub->add_option("--translation", flags->translation, "least and largest displacement of such a wall, m")->type_name("LEAST:MOST");
   sub->add_option("--rotation", flags->rotation_deg, "least and largest turn of such a wall, deg")->type_name("LEAST:MOST");
   sub->add_option("--sensor", o.sensor, "one of " + sensors);
@@ -99,7 +120,10 @@ void AddSimulate(CLI::App& app, Session& session) {
   sub->add_option("--glass-transmission", o.glass_transmission, "chance that a ray passes a pane");
   sub->add_option("--clutter", o.clutter, "boxes that stand about and are not in the plan");
   sub->add_flag("--force", flags->force, "replace a recording that no simulation wrote");
-  sub->callback([flags, &session] { session.status = RunSimulate(*flags, session); });
+  sub->callback([flags, sub, &session] {
+    flags->duration_given = sub->count("--duration") > 0;
+    session.status = RunSimulate(*flags, session);
+  });
 }
 
 }  // namespace plumb::tools

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <set>
 #include <numbers>
 #include <tuple>
 
@@ -17,7 +18,8 @@ using Eigen::Vector2d;
 constexpr double kBand_m = 0.06;  // surfaces are drawn as bands of this width on the free side
 
 int Gravity(const SurfaceEntry& s) {
-  if (Deviates(s)) return 2;
+  if (s.status == "deviated") return 3;
+  if (s.status == "missing") return 2;
   return s.status == "as_planned" ? 1 : 0;
 }
 
@@ -27,6 +29,11 @@ std::pair<Vector2d, Vector2d> EndDisplacements(const Surface& s, const SurfaceEn
   const Vector2d half = 0.5 * (s.end - s.start), shift = entry.translation_m * s.normal.head<2>();
   const Vector2d turned(std::cos(angle_rad) * half.x() - std::sin(angle_rad) * half.y(), std::sin(angle_rad) * half.x() + std::cos(angle_rad) * half.y());
   return {shift - turned + half, shift + turned - half};
+}
+
+Ring Footprint(const Wall& wall) {
+  const Vector2d along = (wall.axis_end - wall.axis_start).normalized(), half = 0.5 * wall.thickness_m * Vector2d(-along.y(), along.x());
+  return {wall.axis_start - half, wall.axis_end - half, wall.axis_end + half, wall.axis_start + half};
 }
 
 std::string Planned(const Surface& s, const SurfaceEntry& entry, const Sheet& sheet) {
@@ -42,10 +49,6 @@ struct DeviatedLayers {
 };
 
 void AddDeviated(const Surface& s, const SurfaceEntry& entry, double limit_m, const Sheet& sheet, DeviatedLayers& layers) {
-  if (entry.status == "missing") {
-    layers.built += fmt::format("<path class=\"missing\" d=\"{}\"/>\n", sheet.Line(s.start, s.end));
-    return;
-  }
   const auto [start, end] = EndDisplacements(s, entry);
   const std::string data = fmt::format("style=\"--dev:{}\" data-a=\"{}\" data-b=\"{}\" data-da=\"{} {}\" data-db=\"{} {}\"",
                                        DeviationColor(entry.translation_m, limit_m), sheet.At(s.start), sheet.At(s.end), Decimal(sheet.Length(start.x())),
@@ -90,7 +93,8 @@ double ColorLimit(const Deviations& deviations) {
 std::string DeviationStyle() {
   return R"(.plan .as-planned{stroke:#4f9d8f;stroke-width:6;stroke-opacity:.75;fill:none}
 .plan .unobserved{stroke:var(--soft);stroke-width:2.5;stroke-dasharray:2 9;stroke-linecap:round;fill:none}
-.plan .missing{stroke:#c2185b;stroke-width:8;stroke-dasharray:16 9;fill:none}
+.plan .missing{stroke:#d32f2f;stroke-width:5;stroke-dasharray:16 9;fill:var(--paper);fill-opacity:.7}
+.plan .unplanned{stroke:#1565c0;stroke-width:3;fill:#1565c0;fill-opacity:.85}
 .plan .wall-now{fill:var(--dev);fill-opacity:.5}
 .plan .free-now{fill:var(--floor)}
 .plan .planned{stroke:var(--ink);stroke-width:1.4;stroke-dasharray:9 6;fill:none}
@@ -102,18 +106,30 @@ std::string DeviationStyle() {
 }
 
 std::string DrawSurfaces(const AGraph& graph, StoreyId storey, const Deviations& deviations, double limit_m, const Sheet& sheet) {
-  std::string planned;
+  std::string planned, missing;
   DeviatedLayers deviated;
+  std::set<WallId> outlined;
   for (const SurfaceEntry& entry : deviations.surfaces) {
     const Surface& s = graph.surfaces[entry.id.index()];
     if (s.storey != storey) continue;
-    if (Deviates(entry)) {
+    if (entry.status == "missing") {
+      if (outlined.insert(s.wall).second) missing += fmt::format("<path class=\"missing\" d=\"{}\"/>\n", sheet.Closed(Footprint(graph.walls[s.wall.index()])));
+    } else if (entry.status == "deviated") {
       AddDeviated(s, entry, limit_m, sheet, deviated);
     } else {
       planned += Planned(s, entry, sheet);
     }
   }
-  return planned + deviated.wall_now + deviated.free_now + deviated.planned + deviated.built;
+  return planned + deviated.wall_now + deviated.free_now + deviated.planned + deviated.built + missing;
+}
+
+std::string DrawUnplanned(const AGraph& graph, StoreyId storey, const Deviations& deviations, const Sheet& sheet) {
+  std::string out;
+  for (const UnplannedEntry& wall : deviations.unplanned) {
+    if (wall.room.valid() && graph.rooms[wall.room.index()].storey != storey) continue;
+    fmt::format_to(std::back_inserter(out), "<path class=\"unplanned\" d=\"{}\"/>\n", sheet.Closed(wall.polygon));
+  }
+  return out;
 }
 
 std::string DrawWallNumbers(const AGraph& graph, StoreyId storey, const std::vector<WallRow>& rows, const Sheet& sheet) {
@@ -125,12 +141,13 @@ std::string DrawWallNumbers(const AGraph& graph, StoreyId storey, const std::vec
     const double clear_m = 0.32 + std::max(0.0, row.surface->translation_m);
     const Vector2d at = s.midpoint() + clear_m * s.normal.head<2>();
     const double x = sheet.x(at.x()), y = sheet.y(at.y());
+    const std::string color = row.surface->status == "missing" ? kMissingColor : DeviationColor(row.surface->translation_m, 0.01);
     const std::string amount =
         row.surface->status == "missing" ? std::string("missing") : Signed(100 * row.surface->translation_m, 1) + " cm";
     fmt::format_to(std::back_inserter(out),
                    "<g class=\"tag\" style=\"--dev:{}\"><circle cx=\"{}\" cy=\"{}\" r=\"16\"/><text x=\"{}\" y=\"{}\" font-size=\"19\">{}</text>"
                    "<text class=\"amount\" x=\"{}\" y=\"{}\" font-size=\"18\">{}</text></g>\n",
-                   DeviationColor(row.surface->translation_m, 0.01), Decimal(x), Decimal(y), Decimal(x), Decimal(y + 6.5), row.number, Decimal(x),
+                   color, Decimal(x), Decimal(y), Decimal(x), Decimal(y + 6.5), row.number, Decimal(x),
                    Decimal(y + 36), amount);
   }
   return out;

@@ -29,18 +29,16 @@ std::string Tile(const std::string& value, const std::string& label) {
   return fmt::format("<div class=\"tile\"><b>{}</b><span>{}</span></div>\n", value, label);
 }
 
-std::string Tiles(const RunInfo& info, const std::vector<WallRow>& rows) {
-  size_t observed = 0, deviated = 0;
-  for (const WallRow& row : rows) {
-    observed += row.surface->status != "unobserved";
-    deviated += row.number > 0;
-  }
+std::string Tiles(const RunInfo& info, const Deviations& deviations, const std::vector<WallRow>& rows) {
+  const auto count = [&](const char* status) { return std::count_if(rows.begin(), rows.end(), [&](const WallRow& r) { return r.surface->status == status; }); };
+  const auto deviated = count("deviated"), observed = deviated + count("as_planned");
   std::string out = "<div class=\"tiles\">\n";
   out += Tile(info.time_to_localize_s ? fmt::format("{:.1f} s", *info.time_to_localize_s) : "never", "until localized");
   const double ratio = info.scans == 0 ? 0 : 100.0 * static_cast<double>(info.localized_scans) / static_cast<double>(info.scans);
   out += Tile(fmt::format("{:.0f} %", ratio), fmt::format("of {} scans localized", info.scans));
   out += Tile(fmt::format("{} of {}", deviated, observed), "observed walls deviate");
   out += Tile(deviated > 0 ? Signed(100 * rows.front().surface->translation_m, 1) + " cm" : "none", "largest deviation");
+  out += Tile(fmt::format("{}, {}", count("missing"), deviations.unplanned.size()), "walls missing, walls in no plan");
   out += Tile(Signed(100 * info.range_bias_m, 1) + " cm", "range bias of the sensor");
   out += Tile(fmt::format("{:.0f} s", info.duration_s), fmt::format("of recording, {:.0f} ms per scan", info.ms_per_scan));
   return out + "</div>\n";
@@ -72,7 +70,7 @@ std::string Figure(const AGraph& plan, StoreyId storey, const Run& run, const st
       "<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n{}<g class=\"layer-surfaces\">\n{}</g>\n<g class=\"layer-way\">\n{}</g>\n"
       "<g class=\"layer-rooms\">\n{}</g>\n<g class=\"layer-surfaces\">\n{}</g>\n{}</svg></figure>\n",
       EscapeXml(plan.storeys[storey.index()].name), Decimal(sheet.width()), Decimal(sheet.height()), DrawFloorPlan(plan, storey, sheet),
-      DrawSurfaces(plan, storey, run.deviations, limit_m, sheet), DrawTrajectory(plan, storey, run, sheet), DrawRoomLabels(plan, storey, sheet),
+      DrawSurfaces(plan, storey, run.deviations, limit_m, sheet) + DrawUnplanned(plan, storey, run.deviations, sheet), DrawTrajectory(plan, storey, run, sheet), DrawRoomLabels(plan, storey, sheet),
       DrawWallNumbers(plan, storey, rows, sheet), DrawScaleBar(sheet, 30, sheet.height() - 45));
 }
 
@@ -110,7 +108,13 @@ std::string WallRowHtml(const AGraph& plan, const WallRow& row) {
   const SurfaceEntry& s = *row.surface;
   const std::string storey = wall.storey.valid() ? EscapeXml(plan.storeys[wall.storey.index()].name) : "";
   const std::string chip =
-      row.number > 0 ? fmt::format("<span class=\"chip\" style=\"background:{}\">{}</span>", DeviationColor(s.translation_m, 0.01), row.number) : "";
+      row.number > 0 ? fmt::format("<span class=\"chip\" style=\"background:{}\">{}</span>",
+                                   s.status == "missing" ? kMissingColor : DeviationColor(s.translation_m, 0.01), row.number) : "";
+  if (s.status == "missing") {
+    return fmt::format("<tr class=\"off\"><td class=\"t\">{}</td><td class=\"t\">{}<small>{}</small></td><td class=\"t\">{}</td><td class=\"t\">missing"
+                       "<small>{:.0f} lines of sight go through</small></td><td></td><td></td><td></td><td>{:.1f}</td><td></td></tr>\n",
+                       chip, EscapeXml(wall.name), EscapeXml(s.wall_guid), storey, s.points, s.observed_m2);
+  }
   return fmt::format(
       "<tr{}><td class=\"t\">{}</td><td class=\"t\">{}<small>{}</small></td><td class=\"t\">{}</td><td class=\"t\">{}</td>"
       "<td>{} &plusmn; {:.1f}<small>{}</small></td><td>{} &plusmn; {:.2f}</td><td>{:.3f}</td><td>{:.1f}</td><td>{:.0f}</td></tr>\n",
@@ -135,6 +139,27 @@ std::string WallTable(const AGraph& plan, const std::vector<WallRow>& rows) {
       "verdict</th><th>displacement &plusmn; &sigma;, cm</th><th>turn &plusmn; &sigma;, &deg;</th><th>P(deviated)</th><th>seen, m&sup2;</th><th>points</th>"
       "</tr></thead><tbody>\n{}</tbody></table></div>\n{}",
       body, rest);
+}
+
+std::string UnplannedTable(const AGraph& plan, const Deviations& deviations) {
+  std::string body;
+  for (const UnplannedEntry& wall : deviations.unplanned) {
+    Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+    double longest_m = 0;
+    for (size_t i = 0; i < wall.polygon.size(); ++i) {
+      middle += wall.polygon[i] / static_cast<double>(wall.polygon.size());
+      longest_m = std::max(longest_m, (wall.polygon[(i + 1) % wall.polygon.size()] - wall.polygon[i]).norm());
+    }
+    const Room* room = wall.room.valid() ? &plan.rooms[wall.room.index()] : nullptr;
+    fmt::format_to(std::back_inserter(body), "<tr class=\"off\"><td class=\"t\">{}</td><td class=\"t\">{}</td><td>{:.2f}, {:.2f}</td><td>{:.2f}</td><td>{:.2f}</td></tr>\n",
+                   room ? EscapeXml(room->name) : "", room && room->storey.valid() ? EscapeXml(plan.storeys[room->storey.index()].name) : "", middle.x(),
+                   middle.y(), longest_m, wall.height_m);
+  }
+  if (body.empty()) return {};
+  return fmt::format(
+      "<h2>Walls in no plan</h2>\n<div class=\"scroll\"><table><thead><tr><th class=\"t\">in room</th><th class=\"t\">storey</th><th>middle x, y, m</th>"
+      "<th>length, m</th><th>seen up to, m</th></tr></thead><tbody>\n{}</tbody></table></div>\n",
+      body);
 }
 
 std::string RoomTable(const AGraph& plan, const Deviations& deviations) {
@@ -173,6 +198,9 @@ std::string CheckIds(const AGraph& plan, const Deviations& deviations) {
   for (const RoomEntry& r : deviations.rooms) {
     if (r.id.index() >= plan.rooms.size()) return fmt::format("room {}", r.id.value);
   }
+  for (const UnplannedEntry& w : deviations.unplanned) {
+    if (w.room.valid() && w.room.index() >= plan.rooms.size()) return fmt::format("room {}", w.room.value);
+  }
   return {};
 }
 
@@ -189,8 +217,8 @@ Expected<std::string> RunToHtml(const AGraph& plan, const Run& run, const RunInf
       "<title>{0} as built</title>\n<style>\n{1}{2}{3}{4}</style></head>\n<body>\n<h1>{0}: as built against the plan</h1>\n"
       "<p class=\"sub\">where the robot was, and how far each wall stands from where the plan has it</p>\n{5}{6}<h2>Plan</h2>\n{7}{8}{9}{10}"
       "<script>\n{11}</script>\n</body></html>\n",
-      title, FloorPlanStyle(), DeviationStyle(), TrajectoryStyle(), PageStyle(), Tiles(info, rows), Notes(info, run.deviations),
-      Figures(plan, run, rows), WallTable(plan, rows), RoomTable(plan, run.deviations), Footer(info), PageScript());
+      title, FloorPlanStyle(), DeviationStyle(), TrajectoryStyle(), PageStyle(), Tiles(info, run.deviations, rows), Notes(info, run.deviations),
+      Figures(plan, run, rows), WallTable(plan, rows) + UnplannedTable(plan, run.deviations), RoomTable(plan, run.deviations), Footer(info), PageScript());
 }
 
 }  // namespace plumb::tools

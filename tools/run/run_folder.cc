@@ -79,6 +79,14 @@ RoomEntry ParseRoom(const Json& json) {
   return r;
 }
 
+UnplannedEntry ParseUnplanned(const Json& json) {
+  UnplannedEntry wall;
+  for (const Json& p : json.at("polygon")) wall.polygon.emplace_back(p.at(0).get<double>(), p.at(1).get<double>());
+  Get(json, "height_m", wall.height_m);
+  if (json.contains("room")) wall.room = RoomId(json.at("room").get<uint32_t>());
+  return wall;
+}
+
 // Before the first fix there is no trajectory, and the file holds nothing.
 Expected<runtime::Trajectory> ReadRunTrajectory(const std::string& path) {
   const auto text = ReadFileText(path);
@@ -124,6 +132,10 @@ Expected<Deviations> ParseDeviations(const std::string& json, const std::string&
     Get(root, "gauge", out.gauge);
     for (const Json& surface : root.at("surfaces")) out.surfaces.push_back(ParseSurface(surface));
     for (const Json& room : root.at("rooms")) out.rooms.push_back(ParseRoom(room));
+    for (const Json& wall : root.value("unplanned", Json::array())) {
+      out.unplanned.push_back(ParseUnplanned(wall));
+      if (out.unplanned.back().polygon.size() < 3) return Fail(ErrorCode::kBadRunFolder, fmt::format("`{}`: a polygon of `unplanned` has fewer than 3 corners", source));
+    }
     return out;
   } catch (const Json::exception& e) {
     return Fail(ErrorCode::kBadRunFolder, fmt::format("`{}` is no deviations file: {}", source, e.what()));

@@ -42,10 +42,17 @@ struct RoomEntry {
   double rotation_deg = 0, sigma_m = 0;
 };
 
+struct UnplannedEntry {
+  std::vector<Eigen::Vector2d> polygon;  // plan frame
+  double height_m = 0;
+  RoomId room;  // that it stands in
+};
+
 struct Deviations {
   std::string gauge;
   std::vector<SurfaceEntry> surfaces;
   std::vector<RoomEntry> rooms;
+  std::vector<UnplannedEntry> unplanned = {};
 };
 
 // Text forms; stamps with nine decimals as in scan file names.

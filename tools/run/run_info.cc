@@ -43,6 +43,8 @@ std::string RunInfoToJson(const RunInfo& info) {
   summary["duration_s"] = info.duration_s;
   summary["keyframes"] = info.keyframes;
   summary["deviated_walls"] = info.deviated_walls;
+  summary["missing_walls"] = info.missing_walls;
+  summary["unplanned_walls"] = info.unplanned_walls;
   summary["range_bias_m"] = info.range_bias_m;
   summary["ms_per_scan"] = info.ms_per_scan;
   if (info.pace) {
@@ -80,6 +82,8 @@ Expected<RunInfo> ParseRunInfo(const std::string& json, const std::string& sourc
     summary.at("duration_s").get_to(info.duration_s);
     summary.at("keyframes").get_to(info.keyframes);
     summary.at("deviated_walls").get_to(info.deviated_walls);
+    info.missing_walls = summary.value("missing_walls", size_t{0});
+    info.unplanned_walls = summary.value("unplanned_walls", size_t{0});
     summary.at("range_bias_m").get_to(info.range_bias_m);
     summary.at("ms_per_scan").get_to(info.ms_per_scan);
     if (const auto pace = summary.find("pace"); pace != summary.end()) {

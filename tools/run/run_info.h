@@ -37,7 +37,7 @@ struct RunInfo {
   std::optional<double> time_to_localize_s;  // from the first scan's stamp to that of the first `localized` verdict
   double duration_s = 0;                     // from the first scan's stamp to the last one's
   size_t keyframes = 0;
-  size_t deviated_walls = 0;
+  size_t deviated_walls = 0, missing_walls = 0, unplanned_walls = 0;
   double range_bias_m = 0;   // estimated common bias of the sensor's ranges
   double ms_per_scan = 0;    // mean over all stages
   std::optional<Pace> pace;

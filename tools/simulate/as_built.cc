@@ -73,7 +73,7 @@ class Builder {
   }
 
   Expected<AsBuilt> Run() {
-    if (options_.deviate == 0) return std::move(built_);
+    if (options_.deviate == 0 && options_.deviate_ratio == 0) return std::move(built_);
     const FreeSpace space(open_, storey_, built_.passages);
     if (space.size() == 0) return Fail(ErrorCode::kPlanUnsuitable, "the storey has no rooms, or more than 400 m x 400 m of them");
     const Reach reach = FindReach(open_, storey_, space);
@@ -82,11 +82,13 @@ class Builder {
     planned_leaks_ = LeakShare(open_, space, reach);
     std::vector<Candidate> candidates = Candidates();
     random_.Shuffle(candidates);
+    const bool by_share = options_.deviate_ratio > 0;
+    const auto wanted = static_cast<size_t>(by_share ? std::ceil(options_.deviate_ratio * static_cast<double>(candidates.size())) : options_.deviate);
     for (const Candidate& candidate : candidates) {
-      if (built_.walls.size() == static_cast<size_t>(options_.deviate)) break;
+      if (built_.walls.size() == wanted) break;
       if (LeavesMajority(candidate.wall)) Try(candidate);
     }
-    if (built_.walls.size() < static_cast<size_t>(options_.deviate)) {
+    if (!by_share && built_.walls.size() < wanted) {
       return Fail(ErrorCode::kPlanUnsuitable,
                   fmt::format("only {} of {} walls can deviate: of {} long enough, the others would leave their direction without a "
                               "majority that stays, run into something, or close a way",

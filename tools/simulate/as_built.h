@@ -1,4 +1,4 @@
-// The house as built: the plan with some walls displaced.
+// The house as built: the plan with some walls displaced, left out or added.
 #pragma once
 
 #include <vector>
@@ -10,14 +10,23 @@
 
 namespace plumb::tools {
 
+// A wall that is in no plan.
+struct AddedWall {
+  Rectangle footprint;
+  double height_m = 0;
+  uint32_t element = 0;  // of AsBuilt::house
+};
+
 struct AsBuilt {
   AGraph house;                            // inner doors open; mesh as built, structure (rooms, surfaces, doorways) as planned
   std::vector<Eigen::Isometry2d> motions;  // of each plan wall, plan frame
   std::vector<WallDisplacement> walls;     // those that moved
+  std::vector<WallId> missing;             // planned walls that are not there, ascending
+  std::vector<AddedWall> unplanned;
   std::vector<Rectangle> passages;         // the floor of the doorways between rooms of the storey
 };
 
-// Moves options.deviate walls that bound a room of the storey with at least 1.5 m. Which ones and how far follows from the seed. In
+// Moves options.deviate (or deviate_ratio of the) walls that bound a room of the storey with at least 1.5 m. Which ones and how far follows from the seed. In
 // every direction of walls most stay put (so that the plan's frame remains), no wall runs into another, into an opening or away from
 // a joint, every room that could be reached still can, and no ray leaves a room where none left before.
 // Errors: kPlanUnsuitable if there are not so many such walls.

@@ -16,6 +16,7 @@
 #include "tools/simulate/sweep.h"
 #include "tools/simulate/tour.h"
 #include "tools/simulate/truth_json.h"
+#include "tools/simulate/wall_changes.h"
 #include "tools/simulate/wheel_odometry.h"
 
 namespace plumb::tools {
@@ -62,7 +63,18 @@ class Recorder {
  public:
   Recorder(const AGraph& plan, const AsBuilt& built, const Drive& drive, const SensorModel& sensor, const SimulateOptions& options)
       : plan_(plan), counter_(plan, built), drive_(drive), lidar_(built.house, sensor, options.glass_transmission), options_(options),
-        surface_points_(plan.surfaces.size(), 0), surface_scans_(plan.surfaces.size(), 0) {}
+        house_(built.house), origin_(plan.origin), surface_points_(plan.surfaces.size(), 0), surface_scans_(plan.surfaces.size(), 0) {
+    const std::vector<WallBody> bodies = FindWallBodies(plan);
+    for (const WallId wall : built.missing) {
+      missing_.push_back({wall, 0});
+      missing_bodies_.push_back(bodies[wall.index()]);
+    }
+    for (const AddedWall& wall : built.unplanned) {
+      const auto corners = wall.footprint.Corners();
+      unplanned_.push_back({{corners.begin(), corners.end()}, wall.height_m, 0});
+      unplanned_elements_.push_back(wall.element);
+    }
+  }
 
   Expected<void> Run(const fs::path& folder, size_t scans, const SimulateProgress& progress) {
     tbb::parallel_for(size_t{0}, scans, [&](size_t i) { RecordOne(folder, i, scans, progress); });
@@ -74,6 +86,8 @@ class Recorder {
     summary.points = points_;
     summary.surface_points = surface_points_;
     summary.surface_scans = surface_scans_;
+    summary.missing = missing_;
+    summary.unplanned = unplanned_;
   }
 
  private:
@@ -86,6 +100,7 @@ class Recorder {
     for (const Echo& echo : sweep.echoes) {
       if (const SurfaceId id = counter_.SurfaceOf(echo); id.valid()) ++seen[id.index()];
     }
+    const Changes changes = CountChanges(sweep, pose(stamp_s - options_.start_stamp_s).translation());
     const Expected<void> written = runtime::WritePcd(sweep.scan, (folder / "scans" / runtime::ScanFileName(stamp_s)).string());
     const std::lock_guard lock(mutex_);
     if (!written && !error_) error_ = written.error();
@@ -93,8 +108,27 @@ class Recorder {
       surface_points_[s] += seen[s];
       surface_scans_[s] += seen[s] >= kMinScanPoints ? 1 : 0;
     }
+    for (size_t w = 0; w < missing_.size(); ++w) missing_[w].rays_through += changes.rays_through[w];
+    for (size_t w = 0; w < unplanned_.size(); ++w) unplanned_[w].points += changes.points[w];
     points_ += sweep.scan.points.size();
     if (progress) progress(++done_, scans);
+  }
+
+  // What one sweep saw of walls left out and added.
+  struct Changes {
+    std::vector<uint64_t> rays_through, points;
+  };
+  [[nodiscard]] Changes CountChanges(const Sweep& sweep, const Eigen::Vector3d& sensor) const {
+    Changes changes{std::vector<uint64_t>(missing_bodies_.size(), 0), std::vector<uint64_t>(unplanned_elements_.size(), 0)};
+    for (const Echo& echo : sweep.echoes) {
+      for (size_t w = 0; w < missing_bodies_.size(); ++w) {
+        changes.rays_through[w] += PassesThrough(missing_bodies_[w], sensor, echo.position.cast<double>() + origin_) ? 1 : 0;
+      }
+      for (size_t w = 0; w < unplanned_elements_.size(); ++w) {
+        changes.points[w] += house_.mesh.triangles[echo.triangle].element == unplanned_elements_[w] ? 1 : 0;
+      }
+    }
+    return changes;
   }
 
   const AGraph& plan_;
@@ -102,10 +136,16 @@ class Recorder {
   const Drive& drive_;
   const Lidar lidar_;
   const SimulateOptions& options_;
+  const AGraph& house_;
+  const Eigen::Vector3d origin_;
+  std::vector<WallBody> missing_bodies_;      // of missing_
+  std::vector<uint32_t> unplanned_elements_;  // of unplanned_
   std::mutex mutex_;  // guards all below
   std::optional<Error> error_;
   std::vector<uint64_t> surface_points_;
   std::vector<uint32_t> surface_scans_;
+  std::vector<MissingWall> missing_;
+  std::vector<UnplannedWall> unplanned_;
   size_t points_ = 0, done_ = 0;
 };
 
@@ -137,20 +177,23 @@ std::string SimulateOptions::Check() const {
     return fmt::format("SimulateOptions.{} = {}; must be {}", field, value, rule);
   };
   if (deviate < 0) return bad("deviate", deviate, ">= 0");
+  if (!(deviate_ratio >= 0 && deviate_ratio <= 1)) return bad("deviate_ratio", deviate_ratio, "from 0 to 1");
+  if (missing < 0) return bad("missing", missing, ">= 0");
+  if (unplanned < 0) return bad("unplanned", unplanned, ">= 0");
   if (!(min_translation_m >= 0)) return bad("min_translation_m", min_translation_m, ">= 0");
   if (!(max_translation_m >= min_translation_m && max_translation_m <= 2)) {
     return bad("max_translation_m", max_translation_m, "from min_translation_m to 2");
   }
   if (!(min_rotation_rad >= 0)) return bad("min_rotation_rad", min_rotation_rad, ">= 0");
-  if (!(max_rotation_rad >= min_rotation_rad && max_rotation_rad <= 0.5)) {
-    return bad("max_rotation_rad", max_rotation_rad, "from min_rotation_rad to 0.5");
+  if (!(max_rotation_rad >= min_rotation_rad && max_rotation_rad <= 0.53)) {
+    return bad("max_rotation_rad", max_rotation_rad, "from min_rotation_rad to 0.53");
   }
   if (!FindSensor(sensor)) return bad("sensor", sensor, fmt::format("one of {}", fmt::join(SensorNames(), ", ")).c_str());
   if (!(noise_m >= 0 && noise_m <= 0.5)) return bad("noise_m", noise_m, "from 0 to 0.5");
   if (!(speed_m_s >= 0.05 && speed_m_s <= 3)) return bad("speed_m_s", speed_m_s, "from 0.05 to 3");
   if (!(sensor_height_m >= 0.1 && sensor_height_m <= 3)) return bad("sensor_height_m", sensor_height_m, "from 0.1 to 3");
   if (!(min_duration_s >= 0 && min_duration_s <= 36000)) return bad("min_duration_s", min_duration_s, "from 0 to 36000");
-  if (!(max_duration_s >= std::max(1.0, min_duration_s))) return bad("max_duration_s", max_duration_s, ">= 1 and >= min_duration_s");
+  if (!(max_duration_s >= std::max(1.0, min_duration_s))) return bad("max_duration_s", max_duration_s, ">= 1 and no less than the duration asked for");
   if (!(wobble_rad >= 0 && wobble_rad <= 0.1)) return bad("wobble_rad", wobble_rad, "from 0 to 0.1");
   if (!(glass_transmission >= 0 && glass_transmission <= 1)) return bad("glass_transmission", glass_transmission, "from 0 to 1");
   if (clutter < 0 || clutter > 1000) return bad("clutter", clutter, "from 0 to 1000");
@@ -168,6 +211,8 @@ Expected<SimulateSummary> Simulate(const AGraph& plan, const SimulateOptions& op
   Expected<AsBuilt> built = BuildWithDeviations(plan, summary.storey, options);
   if (!built) return tl::unexpected(built.error());
   summary.walls = built->walls;
+  if (const auto done = LeaveOutWalls(plan, summary.storey, options.missing, options.seed, *built); !done) return tl::unexpected(done.error());
+  if (const auto done = AddWalls(plan, summary.storey, options.unplanned, options.seed, *built); !done) return tl::unexpected(done.error());
   if (options.clutter > 0) summary.boxes = AddClutter(*built, summary.storey, options.clutter, options.seed);
 
   const FreeSpace space(built->house, summary.storey, built->passages);

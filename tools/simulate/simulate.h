@@ -16,7 +16,10 @@ namespace plumb::tools {
 
 struct SimulateOptions {
   uint64_t seed = 1;
-  int deviate = 3;                                            // walls that are built off the plan
+  int deviate = 3;                                            // walls that are built off the plan, ...
+  double deviate_ratio = 0;                                   // ... or, if positive, this share of those that may be, as far as they can
+  int missing = 0;                                            // planned walls that were not built
+  int unplanned = 0;                                          // walls that were built and are not in the plan
   double min_translation_m = 0.05, max_translation_m = 0.35;  // along the wall's normal, either way
   double min_rotation_rad = 0, max_rotation_rad = 0.0873;     // yaw about the middle of the wall's longest room surface, either way
   std::string sensor = "vlp16";                               // see sensor.h
@@ -56,6 +59,17 @@ struct WallDisplacement {
   std::vector<SurfaceDisplacement> surfaces;  // every surface of the wall
 };
 
+struct MissingWall {
+  WallId wall;
+  uint64_t rays_through = 0;  // rays that went right through where the plan has it
+};
+
+struct UnplannedWall {
+  std::vector<Eigen::Vector2d> polygon;  // footprint, plan frame
+  double height_m = 0;
+  uint64_t points = 0;                   // returns from it
+};
+
 struct SimulateSummary {
   StoreyId storey;
   size_t scans = 0, points = 0;
@@ -66,6 +80,8 @@ struct SimulateSummary {
   std::vector<uint64_t> surface_points;       // per plan surface: returns from it,
   std::vector<uint32_t> surface_scans;        // and scans with at least kMinScanPoints of them
   std::vector<WallDisplacement> walls;
+  std::vector<MissingWall> missing;
+  std::vector<UnplannedWall> unplanned;
   int boxes = 0;                              // clutter that found a place
 };
 
@@ -75,7 +91,7 @@ inline constexpr uint32_t kMinScanPoints = 20;
 using SimulateProgress = std::function<void(size_t done, size_t total)>;
 
 // Writes scans/, odometry.tum, truth.tum and truth.json into `out_folder` (made where absent; old scans in it are removed).
-// Errors: kBadOption, kPlanUnsuitable (no room to drive in, no way through a doorway, too few walls that can deviate),
+// Errors: kBadOption, kPlanUnsuitable (no room to drive in, no way through a doorway, too few walls that can deviate or be left out, no place for one more),
 // kFileUnwritable. Time: about 10 million rays a second and core.
 [[nodiscard]] Expected<SimulateSummary> Simulate(const AGraph& plan, const SimulateOptions& options, const std::string& out_folder,
                                                  const SimulateProgress& progress = {});

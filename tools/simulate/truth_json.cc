@@ -29,9 +29,23 @@ Json ToJson(const AGraph& plan, const WallDisplacement& w) {
   return json;
 }
 
+Json ToJson(const AGraph& plan, const MissingWall& m) {
+  const Wall& wall = plan.walls[m.wall.index()];
+  return {{"wall_guid", wall.guid}, {"wall_id", m.wall.value}, {"wall_name", wall.name}, {"rays_through", m.rays_through}};
+}
+
+Json ToJson(const UnplannedWall& w) {
+  Json polygon = Json::array();
+  for (const Eigen::Vector2d& p : w.polygon) polygon.push_back({Rounded(p.x()), Rounded(p.y())});
+  return {{"polygon", polygon}, {"height_m", Rounded(w.height_m)}, {"points", w.points}};
+}
+
 Json ToJson(const SimulateOptions& o) {
   return {{"seed", o.seed},
           {"deviate", o.deviate},
+          {"deviate_ratio", o.deviate_ratio},
+          {"missing", o.missing},
+          {"unplanned", o.unplanned},
           {"translation_m", {o.min_translation_m, o.max_translation_m}},
           {"rotation_deg", {Degrees(o.min_rotation_rad), Degrees(o.max_rotation_rad)}},
           {"sensor", o.sensor},
@@ -66,8 +80,12 @@ std::string TruthToJson(const AGraph& plan, const SimulateOptions& options, cons
                {"seed", options.seed},
                {"storey", summary.storey.value},
                {"walls", Json::array()},
+               {"missing", Json::array()},
+               {"unplanned", Json::array()},
                {"surface_points", Json::object()}};
   for (const WallDisplacement& w : summary.walls) json["walls"].push_back(ToJson(plan, w));
+  for (const MissingWall& m : summary.missing) json["missing"].push_back(ToJson(plan, m));
+  for (const UnplannedWall& w : summary.unplanned) json["unplanned"].push_back(ToJson(w));
   for (size_t i = 0; i < summary.surface_points.size(); ++i) json["surface_points"][std::to_string(i)] = summary.surface_points[i];
   json["drive"] = {{"duration_s", Rounded(summary.duration_s)},
                    {"path_m", Rounded(summary.path_m)},

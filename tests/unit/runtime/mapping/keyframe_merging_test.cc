@@ -71,6 +71,7 @@ TEST(MergeKeyframe, LosesNothingThatWasMeasured) {
   MergeKeyframe(2, 0, &graph);
   ASSERT_TRUE(graph.keyframes[2].merged);
   EXPECT_EQ(graph.keyframes[2].points.capacity(), 0u);
+  EXPECT_EQ(graph.keyframes[2].standpoints.capacity(), 0u);
   EXPECT_EQ(graph.surfaces[0].observations.size(), 2u);
   EXPECT_EQ(graph.surfaces[1].observations.at(0).keyframe, 0u);
   EXPECT_TRUE(sum(graph.surfaces[0]).C.isApprox(wall.C, 1e-9));

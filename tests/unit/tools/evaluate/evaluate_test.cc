@@ -100,7 +100,7 @@ TEST(Evaluate, WritesTheSameFiguresAsTextAndJson) {
   const Evaluation e = Evaluate(run, truth);
   EXPECT_EQ(e.CountWalls(WallOutcome::kFound), 1u);
   EXPECT_NEAR(e.max_translation_error_m(), 0.014, 1e-12);
-  EXPECT_THAT(EvaluationToText(e), HasSubstr("1 found, 0 missed, 0 unobserved, 0 false"));
+  EXPECT_THAT(EvaluationToText(e), HasSubstr("1 found, 0 inaccurate, 0 missed, 0 unjudged, 0 unobserved, 0 false"));
   const auto json = nlohmann::json::parse(EvaluationToJson(e));
   EXPECT_EQ(json.at("walls_found"), 1);
   EXPECT_NEAR(json.at("walls").at(0).at("error_translation_m").get<double>(), 0.014, 1e-12);

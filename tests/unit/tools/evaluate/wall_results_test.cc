@@ -61,7 +61,7 @@ TEST(CompareWalls, WallsThatTheSensorDidNotSeeAreNotMissed) {
   const auto results = CompareWalls(truth, reported, 200);
   ASSERT_EQ(results.size(), 2u);
   EXPECT_EQ(results[0].guid, "B");  // the run calls it unobserved, but thousands of returns say otherwise
-  EXPECT_EQ(results[0].outcome, WallOutcome::kMissed);
+  EXPECT_EQ(results[0].outcome, WallOutcome::kUnjudged);
   EXPECT_EQ(results[1].guid, "A");
   EXPECT_EQ(results[1].outcome, WallOutcome::kUnobserved);
 }
@@ -72,6 +72,18 @@ TEST(CompareWalls, WithoutCountsTheRunSaysWhatWasObserved) {
   ASSERT_EQ(results.size(), 2u);
   EXPECT_EQ(results[0].outcome, WallOutcome::kMissed);
   EXPECT_EQ(results[1].outcome, WallOutcome::kUnobserved);
+}
+
+TEST(CompareWalls, ADisplacementThatIsFarOffIsNotFound) {
+  SurfaceEntry a = Entry(0, "A", "deviated", 0.26, 2), b = Entry(2, "B", "deviated", -0.15);
+  b.sigma_translation_m = 0.03;
+  const Deviations reported{"", {a, b}, {}};
+  const auto results = CompareWalls(MakeTruth(), reported, 200);
+  ASSERT_EQ(results.size(), 2u);
+  EXPECT_EQ(results[0].outcome, WallOutcome::kFound);  // 5 cm off, but it says that it may be
+  EXPECT_EQ(results[0].guid, "B");
+  EXPECT_EQ(results[1].outcome, WallOutcome::kInaccurate);
+  EXPECT_NEAR(results[1].error_translation_m, 0.06, 1e-12);
 }
 
 TEST(CompareWalls, AWallThatTheRunDoesNotKnowIsUnobserved) {

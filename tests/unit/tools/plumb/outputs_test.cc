@@ -24,6 +24,8 @@ TEST(CheckOutputs, RefusesWhatIsReadByWhateverPath) {
 
 TEST(InFlags, NamesTheFlagOfAField) {
   EXPECT_EQ(InFlags("DrawingFileOptions.scale_m = -1; must be in [0, 10000)"), "--scale -1; must be in [0, 10000)");
+  EXPECT_EQ(InFlags("SimulateOptions.speed_m_s = 9; must be from 0.05 to 3"), "--speed 9; must be from 0.05 to 3");
+  EXPECT_EQ(InFlags("ReplayOptions.threads = -2; must be >= 0"), "--threads -2; must be >= 0");
   EXPECT_EQ(InFlags("RoomOptions.min_width_m = -1; must not be negative"), "RoomOptions.min_width_m = -1; must not be negative");
 }
 

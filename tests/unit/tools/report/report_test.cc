@@ -84,6 +84,28 @@ TEST(Report, ListsDeviatedWallsBySize) {
   EXPECT_EQ(rows[2].number, 0);
 }
 
+TEST(Report, ShowsMissingWallsAndWallsInNoPlan) {
+  const AGraph house = test::MakeHouse();
+  tools::Run run = MakeRun(house);
+  for (SurfaceEntry& s : run.deviations.surfaces) {
+    if (s.wall_guid == "wall-across") s.status = "missing", s.translation_m = 0;
+  }
+  run.deviations.unplanned = {{{{6, 3}, {7.5, 3}, {7.5, 3.1}, {6, 3.1}}, 2.4, RoomId(2)}};
+  const std::string html = RunToHtml(house, run, MakeInfo()).value();
+  const Sheet sheet = SheetOf(house, StoreyId(0));
+  EXPECT_THAT(html, HasSubstr("<b>1 of 5</b><span>observed walls deviate"));
+  EXPECT_THAT(html, HasSubstr("<b>1, 1</b><span>walls missing, walls in no plan"));
+  EXPECT_THAT(html, HasSubstr("<path class=\"missing\" d=\"" + sheet.Closed({{0, 3.44}, {4.94, 3.44}, {4.94, 3.56}, {0, 3.56}})));
+  EXPECT_THAT(html, HasSubstr("<path class=\"unplanned\" d=\"" + sheet.Closed(run.deviations.unplanned[0].polygon)));
+  EXPECT_THAT(html, HasSubstr("<h2>Walls in no plan</h2>"));
+  const auto rows = WallRows(house, run.deviations);
+  EXPECT_EQ(rows[0].surface->wall_guid, "wall-middle");
+  EXPECT_EQ(rows[1].surface->status, "missing");
+  EXPECT_EQ(rows[1].number, 2);
+  run.deviations.unplanned[0].room = RoomId(9);
+  EXPECT_EQ(RunToHtml(house, run, MakeInfo()).error().code, ErrorCode::kBadRunFolder);
+}
+
 TEST(Report, TheBuiltSurfaceIsShiftedAlongTheNormalAndTurnedAboutItsMiddle) {
   AGraph house = test::MakeHouse();
   Deviations deviations;

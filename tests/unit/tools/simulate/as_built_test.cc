@@ -33,6 +33,18 @@ TEST(DisplacementOf, IsMeasuredAtThePlannedMidpointAlongThePlannedNormal) {
   EXPECT_NEAR(turned.rotation_rad, 0.1, 1e-12);
 }
 
+TEST(BuildWithDeviations, TakesAShareOfTheWallsAsFarAsTheyCan) {
+  const AGraph house = test::MakeHouse();
+  SimulateOptions options = Options(1, 0);
+  options.deviate_ratio = 0.01;
+  EXPECT_EQ(BuildWithDeviations(house, StoreyId(0), options)->walls.size(), 1u) << "at least one";
+  options.deviate_ratio = 1;
+  const Expected<AsBuilt> all = BuildWithDeviations(house, StoreyId(0), options);
+  ASSERT_TRUE(all) << all.error().message;
+  EXPECT_EQ(all->walls.size(), 2u) << "one of three in each direction";
+  EXPECT_FALSE(BuildWithDeviations(house, StoreyId(0), Options(1, 6))) << "a number is one";
+}
+
 TEST(BuildWithDeviations, KeepsWithinTheRangesAndAMajorityInPlace) {
   const AGraph house = test::MakeHouse();
   std::set<uint32_t> chosen;

@@ -1,0 +1,39 @@
+// What was seen from where: every kept point of the map with the place that the sensor saw it from, in the plan.
+#pragma once
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cstddef>
+
+#include "runtime/mapping/sgraph.h"
+
+namespace plumb::runtime {
+
+// A line of sight, plan frame: nothing opaque stands between the two.
+struct Sight {
+  Eigen::Vector3d from, to;
+  uint32_t keyframe = 0;
+};
+
+inline constexpr size_t kSightsPerKeyframe = 6000;
+
+// An even sample of each keyframe's points, in the map's order. Merged keyframes have none: those they were merged into saw the same.
+template <class F>
+void ForEachSight(const SGraph& map, const Eigen::Isometry3d& T_plan_map, F&& visit) {
+  for (const Keyframe& keyframe : map.keyframes) {
+    if (keyframe.merged) continue;
+    const Eigen::Isometry3d T = T_plan_map * keyframe.T_map_kf;
+    const size_t step = std::max<size_t>(1, (keyframe.points.size() + kSightsPerKeyframe - 1) / kSightsPerKeyframe);
+    size_t next = 0;
+    Sight sight{T.translation(), {}, keyframe.id};
+    for (size_t i = 0; i < keyframe.points.size(); i += step) {
+      for (; next < keyframe.standpoints.size() && keyframe.standpoints[next].first_point <= i; ++next) {
+        sight.from = T * keyframe.standpoints[next].sensor.cast<double>();
+      }
+      sight.to = T * keyframe.points[i].cast<double>();
+      visit(static_cast<const Sight&>(sight));
+    }
+  }
+}
+
+}  // namespace plumb::runtime

@@ -1,0 +1,101 @@
+#include "tools/evaluate/wall_changes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <tuple>
+
+namespace plumb::tools {
+namespace {
+
+using Polygon = std::vector<Eigen::Vector2d>;
+
+constexpr double kNear_m = 0.10;
+constexpr double kCovered = 0.5;
+constexpr int kSamples = 50;
+
+double DistanceToSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  const double length2 = (b - a).squaredNorm();
+  const double t = length2 > 0 ? std::clamp((p - a).dot(b - a) / length2, 0.0, 1.0) : 0.0;
+  return (p - a - t * (b - a)).norm();
+}
+
+bool IsNear(const Eigen::Vector2d& p, const Polygon& polygon) {
+  bool inside = false;
+  for (size_t i = 0; i < polygon.size(); ++i) {
+    const Eigen::Vector2d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    if (DistanceToSegment(p, a, b) <= kNear_m) return true;
+    if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) inside = !inside;
+  }
+  return inside;
+}
+
+// Points along the middle of the polygon, from the middle of its shortest side to that of the one that is farthest from it.
+Polygon CentreLine(const Polygon& polygon) {
+  const auto length = [&](size_t i) { return (polygon[(i + 1) % polygon.size()] - polygon[i]).norm(); };
+  const auto middle = [&](size_t i) { return Eigen::Vector2d(0.5 * (polygon[i] + polygon[(i + 1) % polygon.size()])); };
+  size_t first = 0, last = 0;
+  for (size_t i = 1; i < polygon.size(); ++i) first = length(i) < length(first) ? i : first;
+  for (size_t i = 1; i < polygon.size(); ++i) last = (middle(i) - middle(first)).norm() > (middle(last) - middle(first)).norm() ? i : last;
+  Polygon points;
+  for (int k = 0; k < kSamples; ++k) points.push_back(middle(first) + (k + 0.5) / kSamples * (middle(last) - middle(first)));
+  return points;
+}
+
+// Share of the polygon's length that lies at one of the others.
+double CoveredBy(const Polygon& polygon, const std::vector<Polygon>& others) {
+  const Polygon points = CentreLine(polygon);
+  const auto covered = std::count_if(points.begin(), points.end(), [&](const Eigen::Vector2d& p) {
+    return std::any_of(others.begin(), others.end(), [&](const Polygon& other) { return IsNear(p, other); });
+  });
+  return static_cast<double>(covered) / static_cast<double>(points.size());
+}
+
+}  // namespace
+
+std::vector<ChangeResult> CompareMissing(const Truth& truth, const Deviations& reported, double min_points) {
+  std::set<std::string> called_missing;
+  for (const SurfaceEntry& s : reported.surfaces) {
+    if (s.status == "missing") called_missing.insert(s.wall_guid);
+  }
+  std::vector<ChangeResult> results;
+  for (const MissingTruth& wall : truth.missing) {
+    const WallOutcome otherwise = wall.rays_through >= min_points ? WallOutcome::kMissed : WallOutcome::kUnobserved;
+    results.push_back({wall.guid, called_missing.erase(wall.guid) > 0 ? WallOutcome::kFound : otherwise, {}});
+  }
+  for (const std::string& guid : called_missing) results.push_back({guid, WallOutcome::kFalse, {}});
+  std::sort(results.begin(), results.end(),
+            [](const ChangeResult& a, const ChangeResult& b) { return std::tie(a.outcome, a.guid) < std::tie(b.outcome, b.guid); });
+  return results;
+}
+
+std::vector<ChangeResult> CompareUnplanned(const Truth& truth, const Deviations& reported, double min_points) {
+  std::vector<Polygon> found, real;
+  for (const UnplannedEntry& w : reported.unplanned) found.push_back(w.polygon);
+  for (const UnplannedTruth& w : truth.unplanned) real.push_back(w.polygon);
+  std::vector<ChangeResult> results;
+  for (const UnplannedTruth& w : truth.unplanned) {
+    const WallOutcome otherwise = w.points >= min_points ? WallOutcome::kMissed : WallOutcome::kUnobserved;
+    results.push_back({"", CoveredBy(w.polygon, found) >= kCovered ? WallOutcome::kFound : otherwise, w.polygon});
+  }
+  for (const Polygon& polygon : found) {
+    if (CoveredBy(polygon, real) < kCovered) results.push_back({"", WallOutcome::kFalse, polygon});
+  }
+  return results;
+}
+
+size_t Count(const std::vector<ChangeResult>& results, WallOutcome outcome) {
+  return static_cast<size_t>(std::count_if(results.begin(), results.end(), [&](const ChangeResult& r) { return r.outcome == outcome; }));
+}
+
+double Recall(const std::vector<ChangeResult>& results) {
+  const size_t found = Count(results, WallOutcome::kFound), all = found + Count(results, WallOutcome::kMissed);
+  return all == 0 ? 1 : static_cast<double>(found) / static_cast<double>(all);
+}
+
+double Precision(const std::vector<ChangeResult>& results) {
+  const size_t found = Count(results, WallOutcome::kFound), all = found + Count(results, WallOutcome::kFalse);
+  return all == 0 ? 1 : static_cast<double>(found) / static_cast<double>(all);
+}
+
+}  // namespace plumb::tools

@@ -8,21 +8,34 @@
 
 namespace plumb::runtime {
 
-Responsibilities AssessMixture(const Eigen::Vector2d& measured, const Eigen::Matrix2d& covariance, const CouplingOptions& options) {
-  const std::array<double, 2> offset_tau{options.offset_tau0_m, options.offset_tau1_m}, yaw_tau{options.yaw_tau0_rad, options.yaw_tau1_rad};
-  std::array<double, 4> log_p{};  // index: 2 * (offset is wide) + (yaw is wide)
+std::array<MixtureComponent, 4> MixtureComponents(const Eigen::Vector2d& measured, const Eigen::Matrix2d& covariance, const CouplingOptions& options) {
+  std::array<MixtureComponent, 4> out;
+  double highest = -1e300;
   for (size_t k = 0; k < 4; ++k) {
-    Eigen::Matrix2d s = covariance;
-    s(0, 0) += offset_tau[k >> 1] * offset_tau[k >> 1];
-    s(1, 1) += yaw_tau[k & 1] * yaw_tau[k & 1];
-    const double weight = k == 0 ? 1.0 - options.deviated_ratio : options.deviated_ratio / 3.0;
-    log_p[k] = std::log(weight) - 0.5 * (measured.dot(s.inverse() * measured) + std::log(s.determinant())) - std::log(2 * std::numbers::pi);
+    MixtureComponent& c = out[k];
+    c.offset_is_wide = k >= 2;
+    c.yaw_is_wide = k % 2 == 1;
+    c.deviates = k > 0;
+    c.prior_variance = Eigen::Vector2d(c.offset_is_wide ? options.offset_tau1_m : options.offset_tau0_m, c.yaw_is_wide ? options.yaw_tau1_rad : options.yaw_tau0_rad).cwiseAbs2();
+    c.total_covariance = covariance;
+    c.total_covariance.diagonal() += c.prior_variance;
+    const double weight = c.deviates ? options.deviated_ratio / 3.0 : 1.0 - options.deviated_ratio;
+    const Eigen::Matrix2d& s = c.total_covariance;
+    c.log_density = std::log(weight) - 0.5 * (measured.dot(s.inverse() * measured) + std::log(s.determinant())) - std::log(2 * std::numbers::pi);
+    highest = std::max(highest, c.log_density);
   }
-  const double highest = *std::max_element(log_p.begin(), log_p.end());
-  std::array<double, 4> p{};
   double sum = 0;
-  for (size_t k = 0; k < 4; ++k) sum += p[k] = std::exp(log_p[k] - highest);
-  return {(p[2] + p[3]) / sum, (p[1] + p[3]) / sum, (p[1] + p[2] + p[3]) / sum, -(highest + std::log(sum))};
+  for (MixtureComponent& c : out) sum += c.probability = std::exp(c.log_density - highest);
+  for (MixtureComponent& c : out) c.probability /= sum;
+  return out;
+}
+
+Responsibilities AssessMixture(const Eigen::Vector2d& measured, const Eigen::Matrix2d& covariance, const CouplingOptions& options) {
+  const std::array<MixtureComponent, 4> k = MixtureComponents(measured, covariance, options);
+  // Any case gives the density of all of them; the likeliest best.
+  const MixtureComponent& best = *std::max_element(k.begin(), k.end(), [](const auto& a, const auto& b) { return a.probability < b.probability; });
+  return {k[2].probability + k[3].probability, k[1].probability + k[3].probability, k[1].probability + k[2].probability + k[3].probability,
+          std::log(best.probability) - best.log_density};
 }
 
 Eigen::Vector2d PriorInformation(const Responsibilities& r, const CouplingOptions& options) {

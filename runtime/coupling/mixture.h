@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 
 #include "runtime/coupling/coupling.h"
 
@@ -12,6 +13,17 @@ struct Responsibilities {
   double any = 0;              // that at least one of them does: the wall deviates
   double cost_nats = 0;        // -log of the measurement's density under the mixture
 };
+
+// One case of the mixture, given a measurement.
+struct MixtureComponent {
+  bool offset_is_wide = false, yaw_is_wide = false, deviates = false;
+  double probability = 0, log_density = 0;  // log: of the measurement and this case together
+  Eigen::Vector2d prior_variance = Eigen::Vector2d::Zero();
+  Eigen::Matrix2d total_covariance = Eigen::Matrix2d::Zero();  // prior and measurement
+};
+// Their probabilities sum to one. Arguments as AssessMixture().
+[[nodiscard]] std::array<MixtureComponent, 4> MixtureComponents(const Eigen::Vector2d& measured, const Eigen::Matrix2d& covariance,
+                                                                const CouplingOptions& options);
 
 // Of a measured deviation (offset_m, yaw_rad) with the measurement's covariance, before any prior. Four components: {as planned, deviated}
 // for the offset times the same for the yaw; `deviated_ratio` is shared equally by the three that deviate.

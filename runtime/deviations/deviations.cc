@@ -14,11 +14,21 @@ namespace {
 
 // P(chi-square with 2 dof > that of the wall's deviation).
 double PValue(const WallEstimate& wall, const DeviationOptions& options) {
-  Eigen::Matrix2d s = wall.cov;
+  Eigen::Matrix2d s = wall.evidence.covariance;
   s(0, 0) += options.tolerance_offset_m * options.tolerance_offset_m;
   s(1, 1) += options.tolerance_yaw_rad * options.tolerance_yaw_rad;
-  const Eigen::Vector2d e(wall.deviation.offset_m, wall.deviation.yaw_rad);
+  const Eigen::Vector2d& e = wall.evidence.measured;
   return std::exp(-0.5 * e.dot(s.inverse() * e));
+}
+
+// Of a displacement with that variance (alpha 0.1 %, power 80 %, one degree of freedom).
+double MinimalDetectable_m(double variance_m2) {
+  constexpr double kNoncentrality = 17.1;
+  return std::sqrt(kNoncentrality * variance_m2);
+}
+
+double TestVariance_m2(const WallEstimate& wall, const Eigen::Vector2d& gain, const DeviationOptions& options) {
+  return gain.dot(wall.evidence.covariance * gain) + wall.place_sigma_m * wall.place_sigma_m + options.tolerance_offset_m * options.tolerance_offset_m;
 }
 
 // Which hypotheses are rejected at the given false discovery rate.
@@ -49,12 +59,13 @@ std::vector<SurfaceStatus> WallStatuses(const JointResult& estimate, const Devia
     const WallEstimate& w = estimate.walls[observed[k]];
     const bool large = std::abs(w.deviation.offset_m) >= options.min_offset_m || std::abs(w.deviation.yaw_rad) >= options.min_yaw_rad;
     const bool deviated = rejected[k] && large && w.p_deviated >= options.min_p_deviated;
-    statuses[observed[k]] = deviated ? SurfaceStatus::kDeviated : SurfaceStatus::kAsPlanned;
+    const bool tested = MinimalDetectable_m(TestVariance_m2(w, Eigen::Vector2d::UnitX(), options)) <= options.max_mdb_m;
+    statuses[observed[k]] = deviated ? SurfaceStatus::kDeviated : tested ? SurfaceStatus::kAsPlanned : SurfaceStatus::kUnobserved;
   }
   return statuses;
 }
 
-SurfaceDeviation DeviationOfFace(const Face& face, const WallEstimate& wall) {
+SurfaceDeviation DeviationOfFace(const Face& face, const WallEstimate& wall, const DeviationOptions& options) {
   const double parameters[kNumWallParameters] = {wall.deviation.offset_m, wall.deviation.yaw_rad, wall.tilt_rad, wall.thickness_error_m};
   Plane built;
   BuiltPlane(face, parameters, &built.n, &built.d);
@@ -68,6 +79,7 @@ SurfaceDeviation DeviationOfFace(const Face& face, const WallEstimate& wall) {
   out.sigma_translation_m = std::sqrt(std::max(0.0, gain.dot(wall.cov_all * gain)));
   out.sigma_rotation_rad = std::sqrt(std::max(0.0, wall.cov(1, 1)));
   out.p_deviated = wall.p_deviated;
+  out.mdb_m = MinimalDetectable_m(TestVariance_m2(wall, gain.head<2>(), options));
   return out;
 }
 
@@ -120,7 +132,7 @@ std::string DeviationOptions::Check() const {
   }
   if (!(min_p_deviated >= 0 && min_p_deviated <= 1)) return fmt::format("DeviationOptions.min_p_deviated = {}; must be in [0, 1]", min_p_deviated);
   const std::pair<const char*, double> magnitudes[] = {{"tolerance_offset_m", tolerance_offset_m}, {"tolerance_yaw_rad", tolerance_yaw_rad},
-      {"min_offset_m", min_offset_m}, {"min_yaw_rad", min_yaw_rad}, {"min_observed_m2", min_observed_m2}};
+      {"min_offset_m", min_offset_m}, {"min_yaw_rad", min_yaw_rad}, {"min_observed_m2", min_observed_m2}, {"max_mdb_m", max_mdb_m}};
   for (const auto& [name, value] : magnitudes) {
     if (!(value >= 0)) return fmt::format("DeviationOptions.{} = {}; must be >= 0", name, value);
   }
@@ -142,7 +154,7 @@ DeviationReport AssessDeviations(const AGraph& plan, const JointResult& estimate
     const Surface& surface = plan.surfaces[i];
     if (!surface.wall.valid() || !by_wall[surface.wall.index()] || !IsFace(frames[surface.wall.index()], surface)) continue;
     const WallEstimate& wall = *by_wall[surface.wall.index()];
-    SurfaceDeviation d = DeviationOfFace(MakeFace(frames[surface.wall.index()], surface), wall);
+    SurfaceDeviation d = DeviationOfFace(MakeFace(frames[surface.wall.index()], surface), wall, options);
     d.surface = SurfaceId(i);
     d.status = statuses[static_cast<size_t>(&wall - estimate.walls.data())];
     for (const SeenSurface& seen : wall.seen) {

@@ -1,6 +1,7 @@
 // What was built otherwise: per surface and room, from the joint estimate; and its JSON.
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -22,6 +23,7 @@ struct DeviationOptions {
   double min_yaw_rad = 0.0087;
   double min_observed_m2 = 0.5;         // less, over all faces of a wall, was not seen well enough to judge
   double min_p_deviated = 0.95;
+  double max_mdb_m = 0.2;               // a wall of which only larger deviations would have been found was not tested
   PresenceOptions presence;
   UnplannedOptions unplanned;
   [[nodiscard]] std::string Check() const;  // empty, or the field, its value and the rule
@@ -34,6 +36,7 @@ struct SurfaceDeviation {
   double rotation_rad = 0, sigma_rotation_rad = 0;    // + counter-clockwise about +z
   double tilt_rad = 0;                                // + the normal turns upwards
   double p_deviated = 0;
+  double mdb_m = std::numeric_limits<double>::infinity();  // minimal detectable deviation: what the test would find with 80 % (alpha 0.1 %)
   double observed_m2 = 0;                             // of this surface alone; missing: of its place
   double points = 0;                                  // missing: of those seen through it
 };
@@ -63,7 +66,8 @@ struct WallChanges {
 
 // Every face of a wall carries the wall's deviation, moved to the face's own midpoint and normal, plus its share of the thickness, and the
 // wall's status; ends of walls and curved surfaces stay unobserved. A wall deviates if Benjamini-Hochberg rejects "as planned" on the
-// chi-square (2 dof) of (offset, yaw) with full covariance plus tolerance, and it exceeds a minimum magnitude, and p_deviated is high.
+// chi-square (2 dof) of its evidence of (offset, yaw) plus tolerance, and it exceeds a minimum magnitude, and p_deviated is high. Where neither it nor a
+// deviation of max_mdb_m could have been told, the wall is unobserved, however much of it was seen.
 // The faces of a wall that `changes` calls missing are missing, whatever the estimate. The gauge says how many walls deviate and are missing.
 [[nodiscard]] DeviationReport AssessDeviations(const AGraph& plan, const JointResult& estimate, const DeviationOptions& options = {},
                                                const WallChanges& changes = {});

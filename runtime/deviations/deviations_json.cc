@@ -28,6 +28,7 @@ Json SurfaceEntry(const AGraph& plan, const SurfaceDeviation& d) {
   out["sigma_rotation_deg"] = Degrees(d.sigma_rotation_rad);
   out["tilt_deg"] = Degrees(d.tilt_rad);
   out["p_deviated"] = Rounded(d.p_deviated, 1e6);
+  out["mdb_m"] = std::isfinite(d.mdb_m) ? Json(Metres(d.mdb_m)) : Json(nullptr);
   out["observed_m2"] = Rounded(d.observed_m2, 1e2);
   out["points"] = static_cast<int64_t>(std::llround(d.points));
   return out;

@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,7 @@ enum class Verdict : uint8_t { kSearching, kAmbiguous, kLocalized, kLost };
 struct EstimateUpdate {
   double stamp_s = 0;  // of the newest scan that it rests on
   Verdict verdict = Verdict::kSearching;
-  Eigen::Isometry3d T_plan_map = Eigen::Isometry3d::Identity();
+  std::optional<Eigen::Isometry3d> T_plan_map;  // none while the robot is not localized
   DeviationReport deviations;  // as far as known by then; nothing observed without a place in the plan
   bool requested = false;      // by RequestUpdate(); else by itself
 };
@@ -25,7 +26,7 @@ struct EstimateUpdate {
 // Called on the thread that works on the graph, which waits for it.
 using UpdateSink = std::function<void(const EstimateUpdate&)>;
 
-// One line of JSON, with the line's end: t, verdict, T_plan_map as [x, y, z, yaw_deg], and those surfaces that differ from what was told before by
+// One line of JSON, with the line's end: t, verdict, T_plan_map as [x, y, z, yaw_deg] or null, and those surfaces that differ from what was told before by
 // status, 1 mm, 0.1 deg or 0.01 of probability. `told`: what the lines so far said, empty before the first; brought up to date.
 [[nodiscard]] std::string UpdateToJson(const EstimateUpdate& update, std::vector<SurfaceDeviation>& told);
 

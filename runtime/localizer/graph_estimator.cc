@@ -58,7 +58,7 @@ struct GraphEstimator::Impl {
   std::vector<Match> matches;  // that `joint` is based on
   WallChanges changes;         // as last judged
   Eigen::Isometry3d T_plan_map = Eigen::Isometry3d::Identity();  // of the last fix
-  Eigen::Isometry3d T_by_rays = Eigen::Isometry3d::Identity();   // as the matcher found it
+  Eigen::Isometry3d T_found = Eigen::Isometry3d::Identity();   // as the matcher found it
   bool ever_fixed = false;
   int odometry_map = 0;
   size_t num_keyframes = 0;               // made of the present map so far, ...
@@ -97,7 +97,9 @@ struct GraphEstimator::Impl {
       if (graph_search) return graph_search->Match(mapper.graph());
       return matcher.Match(mapper.graph(), odometry_map == 0 ? options.hint : StartHint());
     };
-    last_try = std::make_shared<const MatchTry>(MatchTry{stamp_s, mapper.T_map_odom() * T_odom_lidar, match_now()});
+    MatchTry attempt{stamp_s, mapper.T_map_odom() * T_odom_lidar, match_now(), std::nullopt};
+    if (!graph_search) attempt.guidance = matcher.Guide(mapper.graph(), attempt.result, attempt.T_map_lidar);
+    last_try = std::make_shared<const MatchTry>(std::move(attempt));
     const MatchResult& match = last_try->result;
     switch (match.verdict) {
       case MatchResult::Verdict::kSearching:
@@ -107,7 +109,7 @@ struct GraphEstimator::Impl {
       case MatchResult::Verdict::kUnique: break;
     }
     ForgetFix();
-    T_plan_map = T_by_rays = match.hypotheses.front().T_plan_map;
+    T_plan_map = T_found = match.hypotheses.front().T_plan_map;
     for (size_t i = 1; i < match.hypotheses.size(); ++i) rivals.push_back(match.hypotheses[i].T_plan_map);
     verdict = Verdict::kLocalized;
     ever_fixed = true;
@@ -116,7 +118,8 @@ struct GraphEstimator::Impl {
 
   [[nodiscard]] JointOptions SolverOptions() const {
     JointOptions out = options.joint;
-    out.place = T_by_rays;
+    if (graph_search) return out;  // it finds the map to decimetres, by the very walls that are about to be weighed
+    out.place = T_found;
     out.place_sigma_m = mapper.graph().planar ? kPlanarPlaceSigma_m : kPlaceSigma_m;
     return out;
   }
@@ -256,7 +259,7 @@ struct GraphEstimator::Impl {
     OptimizeFinally();
     const Trajectory poses = SmoothedPoses();
     earlier_poses.insert(earlier_poses.end(), poses.begin(), poses.end());
-    DeviationReport report = Deviations(joint);
+    DeviationReport report = Deviations(joint, changes);
     earlier_surfaces = std::move(report.surfaces);
     earlier_rooms = std::move(report.rooms);
     earlier_unplanned = std::move(report.unplanned);
@@ -281,14 +284,19 @@ struct GraphEstimator::Impl {
     if (!options.on_update || !(requested || (tells_all() && changed))) return;
     told_verdict = verdict;
     // The estimate at hand may be one without covariances, and without them nothing is judged.
-    std::optional<Solution> fresh;
-    if (requested && placed() && !joint.covariances_exact) fresh = Solved(true);
-    options.on_update({stamp_s, verdict, T_plan_map, Deviations(fresh ? fresh->joint : joint), requested});
+    const std::optional<Solution> fresh = requested && placed() ? Solved(true) : std::nullopt;
+    const DeviationReport report = fresh ? Deviations(fresh->joint, ChangesSeen(*fresh)) : Deviations(joint, changes);
+    options.on_update({stamp_s, verdict, placed() ? std::optional(T_plan_map) : std::nullopt, report, requested});
   }
 
-  [[nodiscard]] DeviationReport Deviations(const JointResult& estimate) const {
+  [[nodiscard]] WallChanges ChangesSeen(const Solution& solution) const {
+    return {JudgePresence(mapper.graph(), plan, solution.joint, options.deviations.presence),
+            FindUnplannedWalls(mapper.graph(), plan, solution.matches, solution.joint, options.deviations.unplanned)};
+  }
+
+  [[nodiscard]] DeviationReport Deviations(const JointResult& estimate, const WallChanges& seen) const {
     // What a planar laser takes for a wall may be the shelf in front of it: it is good enough to be found by, not to blame a wall for.
-    DeviationReport report = AssessDeviations(plan, mapper.graph().planar ? JointResult() : estimate, options.deviations, changes);
+    DeviationReport report = AssessDeviations(plan, mapper.graph().planar ? JointResult() : estimate, options.deviations, seen);
     if (mapper.graph().planar) report.gauge = "A planar laser sees walls and furniture alike, on one line: walls are not judged.";
     for (size_t i = 0; i < earlier_surfaces.size(); ++i) {
       if (report.surfaces[i].status == SurfaceStatus::kUnobserved) report.surfaces[i] = earlier_surfaces[i];
@@ -347,7 +355,7 @@ Eigen::Isometry3d GraphEstimator::T_plan_map() const { return impl_->T_plan_map;
 const SGraph& GraphEstimator::map() const { return impl_->mapper.graph(); }
 const MatchTry* GraphEstimator::last_try() const { return impl_->last_try.get(); }
 const JointResult& GraphEstimator::estimate() const { return impl_->joint; }
-DeviationReport GraphEstimator::Deviations() const { return impl_->Deviations(impl_->joint); }
+DeviationReport GraphEstimator::Deviations() const { return impl_->Deviations(impl_->joint, impl_->changes); }
 Trajectory GraphEstimator::SmoothedPoses() const { return impl_->SmoothedPoses(); }
 const Trajectory& GraphEstimator::earlier_poses() const { return impl_->earlier_poses; }
 

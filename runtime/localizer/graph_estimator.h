@@ -11,6 +11,7 @@
 #include "runtime/localizer/estimate_update.h"
 #include "runtime/localizer/localizer_options.h"
 #include "runtime/mapping/sgraph.h"
+#include "runtime/matching/guidance.h"
 #include "runtime/matching/matcher.h"
 #include "runtime/optimization/joint_optimizer.h"
 
@@ -39,6 +40,7 @@ struct MatchTry {
   double stamp_s = 0;
   Eigen::Isometry3d T_map_lidar = Eigen::Isometry3d::Identity();
   MatchResult result;
+  std::optional<Guidance> guidance;  // what would tell the places apart that it leaves open
 };
 
 // What the graph knew after one scan: enough to turn poses in odometry's frame into poses in the plan.

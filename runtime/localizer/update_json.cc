@@ -40,9 +40,12 @@ std::string UpdateToJson(const EstimateUpdate& update, std::vector<SurfaceDeviat
   Json out;
   out["t"] = Rounded(update.stamp_s, 1e6);
   out["verdict"] = VerdictName(update.verdict);
-  const Eigen::Vector3d t = update.T_plan_map.translation();
-  const Eigen::Matrix3d R = update.T_plan_map.linear();
-  out["T_plan_map"] = {Metres(t.x()), Metres(t.y()), Metres(t.z()), Degrees(std::atan2(R(1, 0), R(0, 0)))};
+  out["T_plan_map"] = nullptr;
+  if (update.T_plan_map) {
+    const Eigen::Vector3d t = update.T_plan_map->translation();
+    const Eigen::Matrix3d R = update.T_plan_map->linear();
+    out["T_plan_map"] = {Metres(t.x()), Metres(t.y()), Metres(t.z()), Degrees(std::atan2(R(1, 0), R(0, 0)))};
+  }
   out["surfaces"] = Json::array();
   for (size_t i = 0; i < told.size(); ++i) {
     if (!IsNews(update.deviations.surfaces[i], told[i])) continue;

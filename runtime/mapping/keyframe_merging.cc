@@ -48,8 +48,7 @@ std::optional<uint32_t> RedundantTo(const SGraph& graph, uint32_t keyframe, cons
 void MergeKeyframe(uint32_t keyframe, uint32_t into, SGraph* graph) {
   Keyframe& merged = graph->keyframes[keyframe];
   merged.merged = Keyframe::Merged{into, graph->keyframes[into].T_map_kf.inverse() * merged.T_map_kf};
-  graph->keyframes[into].smear_m = std::max(graph->keyframes[into].smear_m, merged.smear_m);
-  graph->keyframes[into].smear_rad = std::max(graph->keyframes[into].smear_rad, merged.smear_rad);
+  graph->keyframes[into].smear.Cover(merged.smear.Rotated(merged.merged->T_into_kf.linear()));
   merged.points = std::vector<Eigen::Vector3f>();  // an empty list in its place would keep the memory
   merged.standpoints = std::vector<Keyframe::Standpoint>();
   for (MapSurface& surface : graph->surfaces) {

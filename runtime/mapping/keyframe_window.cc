@@ -31,9 +31,9 @@ KeyframeWindow::KeyframeWindow(const MapperOptions& options, double stamp_s, con
 
 void KeyframeWindow::Add(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar, bool planar, const Smear& smear) {
   planar_ = planar;
-  smear_ = {std::max(smear_.m, smear.m), std::max(smear_.rad, smear.rad)};
   const PreparedScan prepared = PrepareScan(deskewed, kSpacing_m, options_.min_range_m, options_.max_range_m);
   const Eigen::Isometry3d T_kf_lidar = T_odom_kf_.inverse() * T_odom_lidar;
+  smear_.Cover(smear.Rotated(T_kf_lidar.linear()));
   View view;
   view.sensor = T_kf_lidar.translation();
   if (!planar) {

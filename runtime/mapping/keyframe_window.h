@@ -17,11 +17,6 @@ struct View {
   std::vector<Eigen::Vector3f> points;               // keyframe frame
 };
 
-// Keyframe::smear_m, smear_rad.
-struct Smear {
-  double m = 0, rad = 0;
-};
-
 struct ThinnedPoints {
   std::vector<Eigen::Vector3f> points;  // keyframe frame
   std::vector<Keyframe::Standpoint> standpoints;
@@ -32,7 +27,7 @@ class KeyframeWindow {
   // Opens at the lidar's pose T_odom_kf, which becomes the keyframe's.
   KeyframeWindow(const MapperOptions& options, double stamp_s, const Eigen::Isometry3d& T_odom_kf);
 
-  // `planar`: of a planar laser, whose scans make no surfels.
+  // `planar`: of a planar laser, whose scans make no surfels. `smear`: in the lidar's axes.
   void Add(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar, bool planar, const Smear& smear = {});
 
   [[nodiscard]] double stamp_s() const { return stamp_s_; }
@@ -41,7 +36,7 @@ class KeyframeWindow {
   [[nodiscard]] const SurfelMap& surfels() const { return surfels_; }
 
   [[nodiscard]] bool planar() const { return planar_; }
-  [[nodiscard]] const Smear& smear() const { return smear_; }  // the largest of its scans'
+  [[nodiscard]] const Smear& smear() const { return smear_; }  // covers its scans'
 
   // At most one point per voxel and max_keyframe_points.
   [[nodiscard]] ThinnedPoints Thinned() const;

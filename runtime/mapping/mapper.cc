@@ -68,12 +68,15 @@ bool Mapper::AddScan(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar
   return grown;
 }
 
-// Half of what the sensor moved during its sweep, at the speed since the last scan.
+// Points of a sweep are evenly spread over the sensor's way meanwhile, at the speed since the last scan, and the pose is that of their middle: the root
+// mean square of a uniform distribution of that width. The lidar's axes.
 Smear Mapper::SmearOf(double stamp_s, const Eigen::Isometry3d& T_odom_lidar) const {
   if (!last_scan_) return {};
-  const Distance moved = Between(last_scan_->T_odom_lidar, T_odom_lidar);
-  const double half = 0.5 * std::min(1.0, kUntimedSweep_s / (stamp_s - last_scan_->stamp_s));
-  return {half * moved.m, half * moved.rad};
+  const Eigen::Isometry3d T_now_last = T_odom_lidar.inverse() * last_scan_->T_odom_lidar;
+  const Eigen::AngleAxisd turn(T_now_last.linear());
+  const double spread = std::sqrt(1.0 / 12) * std::min(1.0, kUntimedSweep_s / (stamp_s - last_scan_->stamp_s));
+  const Eigen::Vector3d moved_m = spread * T_now_last.translation(), turned_rad = spread * turn.angle() * turn.axis();
+  return {moved_m * moved_m.transpose(), turned_rad * turned_rad.transpose()};
 }
 
 bool Mapper::Flush() { return window_ && CloseWindow(); }
@@ -100,8 +103,7 @@ bool Mapper::CloseWindow() {
   ThinnedPoints thinned = window.Thinned();
   keyframe.points = std::move(thinned.points);
   keyframe.standpoints = std::move(thinned.standpoints);
-  keyframe.smear_m = window.smear().m;
-  keyframe.smear_rad = window.smear().rad;
+  keyframe.smear = window.smear();
   if (keyframe.points.empty()) return false;
   if (!graph_.keyframes.empty()) {
     const Keyframe& last = graph_.keyframes.back();

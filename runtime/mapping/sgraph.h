@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "runtime/mapping/smear.h"
 #include "runtime/odometry/planar/pose2.h"
 
 namespace plumb::runtime {
@@ -90,8 +91,7 @@ struct Keyframe {
   std::vector<Standpoint> standpoints;
   // Along odometry's way from the first keyframe to this one, keyframe by keyframe.
   double travelled_m = 0, turned_rad = 0;
-  // By how much motion that nobody could take out of its sweeps, as they came without times, may have displaced and turned what they saw.
-  double smear_m = 0, smear_rad = 0;
+  Smear smear;  // by motion that nobody could take out of its sweeps, as they came without times
 
   // A keyframe that told nothing new was merged into an older one (keyframe_merging.h): that one has its observations and carries it along.
   struct Merged {

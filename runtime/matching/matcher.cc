@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "runtime/matching/aliases.h"
+#include "runtime/matching/guidance.h"
 #include "runtime/matching/hypotheses.h"
 #include "runtime/matching/mirror.h"
 #include "runtime/matching/posterior.h"
@@ -162,6 +163,7 @@ std::string MatcherOptions::Check() const {
   if (!(vouch_max_through_ratio >= 0)) return bad("vouch_max_through_ratio", vouch_max_through_ratio, "at least 0");
   if (!(vouch_sigma_xy_m > 0)) return bad("vouch_sigma_xy_m", vouch_sigma_xy_m, "positive");
   if (!(accept_max_through_ratio >= 0)) return bad("accept_max_through_ratio", accept_max_through_ratio, "at least 0");
+  if (ample_more_planes < 0) return bad("ample_more_planes", ample_more_planes, "at least 0");
   if (!(accept_scale_error > 0)) return bad("accept_scale_error", accept_scale_error, "positive");
   return {};
 }
@@ -205,6 +207,10 @@ MatchResult Matcher::Match(const SGraph& map, const StartHint& hint) const {
   if (result.verdict != MatchResult::Verdict::kUnique) return result;
   wrong.mirrored = impl_->MirroredLikelihood(view, finalists.front().fit.pose);
   return Decide(finalists, view, plan, search.options, wrong);
+}
+
+std::optional<Guidance> Matcher::Guide(const SGraph& map, const MatchResult& match, const Eigen::Isometry3d& T_map_lidar) const {
+  return runtime::Guide(impl_->search.plan, map, match, T_map_lidar, impl_->search.options);
 }
 
 double Matcher::Score(const SGraph& map, const Eigen::Isometry3d& T_plan_map) const {

@@ -4,6 +4,7 @@
 
 #include <Eigen/Geometry>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -33,6 +34,7 @@ struct MatcherOptions {
   int accept_min_planes = 5;                  // of the plan's walls that the map agrees with; one more for 4 rooms, two for 32, ...
   double accept_min_consistent_ratio = 0.35;  // of the map's wall length; the rest may be furniture and deviated walls
   double accept_max_through_ratio = 0.02;     // of the rays: may pass through walls of the plan
+  int ample_more_planes = 2;                  // this many more agree than are asked for: then vouch_max_through_ratio of the rays may
   // The building's size against the plan's: the walls tell it to within this with two sigmas, or the rays prefer the plan to one that is larger
   // or smaller by as much, by vouch_lead_nats.
   double accept_scale_error = 0.025;
@@ -71,6 +73,8 @@ struct MatchResult {
   std::string reason;                  // why it is not unique yet; empty when it is
 };
 
+struct Guidance;
+
 class Matcher {
  public:
   // Keeps a reference to `plan`, which must outlive it.
@@ -79,6 +83,9 @@ class Matcher {
 
   // All hypotheses, from nothing or from a hint where the map's first keyframe was. Deterministic.
   [[nodiscard]] MatchResult Match(const SGraph& map, const StartHint& hint = {}) const;
+
+  // Where to drive so that the hypotheses of a match of `map` are told apart; see guidance.h.
+  [[nodiscard]] std::optional<Guidance> Guide(const SGraph& map, const MatchResult& match, const Eigen::Isometry3d& T_map_lidar) const;
 
   // Log-likelihood of one pose, on the same scale as Hypothesis::log_likelihood: for re-scoring an accepted fix against its rivals.
   [[nodiscard]] double Score(const SGraph& map, const Eigen::Isometry3d& T_plan_map) const;

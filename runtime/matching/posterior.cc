@@ -49,11 +49,11 @@ void SetProbabilities(MatchResult& result, double outside) {
   for (Hypothesis& h : result.hypotheses) h.probability = std::exp(h.log_likelihood - highest) / sum;
 }
 
-// Could `other` be the place as well as `best`? Where the evidence cannot tell, a hint may.
+// Could `other` be the place as well as `best`? Where the evidence cannot tell, a hint may; against the evidence it may not.
 bool IsRival(const Candidate& best, const Candidate& other, const MatcherOptions& options) {
-  if (best.score() - other.score() >= options.accept_margin_nats) return false;
-  const bool hinted = best.log_prior - other.log_prior >= options.hint_lead_nats;
-  return !hinted || best.rays.log_likelihood < other.rays.log_likelihood - options.hint_tie_nats;
+  if (other.rays.log_likelihood > best.rays.log_likelihood + options.hint_tie_nats) return true;
+  const double prior_lead = best.log_prior - other.log_prior;
+  return best.score() - other.score() < options.accept_margin_nats && prior_lead < options.hint_lead_nats;
 }
 
 }  // namespace
@@ -97,6 +97,7 @@ bool WallsTellScale(const WallFit& fit, const MatcherOptions& options) {
 std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, int required_planes, bool rays_vouch,
                   const std::optional<double>& scaled, const MatcherOptions& options) {
   const WallFit& fit = candidate.fit;
+  const bool ample = rays_vouch || fit.consistent_planes >= required_planes + options.ample_more_planes;
   if (rays_vouch) {
     const bool nearly_all = candidate.rays.explained_ratio >= options.vouch_nearly_all_ratio && candidate.rays.through_ratio <= options.accept_max_through_ratio;
     required_planes = std::min(required_planes, options.vouch_min_planes - (nearly_all ? 1 : 0));
@@ -111,7 +112,7 @@ std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, int 
   if (!rays_vouch && fit.consistent_ratio < options.accept_min_consistent_ratio) {
     return fmt::format("only {:.0f} % of the walls seen agree with the plan", 100 * fit.consistent_ratio);
   }
-  if (candidate.rays.through_ratio > (rays_vouch ? options.vouch_max_through_ratio : options.accept_max_through_ratio)) {
+  if (candidate.rays.through_ratio > (ample ? options.vouch_max_through_ratio : options.accept_max_through_ratio)) {
     return fmt::format("{:.1f} % of the rays went through walls of the plan", 100 * candidate.rays.through_ratio);
   }
   const bool rays_tell_scale = scaled && candidate.rays.log_likelihood - *scaled >= options.vouch_lead_nats;

@@ -145,13 +145,27 @@ class Optimizer {
       result.cov_xy_yaw = Eigen::Vector3d(1, 1, 0.04).asDiagonal();
       if (options_.covariances) result.message += " Rank deficient: covariances are the priors' own, the widest they can be.";
     }
-    for (size_t w = 0; w < state_.walls.size(); ++w) result.walls.push_back(Estimate(w, covariances));
+    const bool asks_walls = covariances && schedule_.consensus;
+    JointOptions walls_alone = options_;  // the place by the rays comes from the same walls: it may choose between places, not make one certain
+    walls_alone.place.reset();
+    walls_alone.place_sigma_m = JointOptions().place_sigma_m;
+    const std::vector<RivalPlace> rivals = asks_walls ? RivalPlaces(measurements_, frames_, Place(), walls_alone) : std::vector<RivalPlace>();
+    for (size_t w = 0; w < state_.walls.size(); ++w) result.walls.push_back(Estimate(w, covariances, rivals));
     CountSeen(result.walls);
     result.directions = SupportByDirection(measurements_, frames_, state_.bias_m, options_.coupling);
     result.gauge = GaugeText(result);
   }
 
-  WallEstimate Estimate(size_t w, const std::optional<JointCovariances>& covariances) const {
+  // The estimated place and its rivals, as this wall would be measured there.
+  static std::vector<MeasuredElsewhere> Places(size_t w, const std::vector<RivalPlace>& rivals) {
+    std::vector<MeasuredElsewhere> out{{1.0, Eigen::Vector2d::Zero()}};
+    double sum = 1;
+    for (const RivalPlace& rival : rivals) sum += out.emplace_back(MeasuredElsewhere{std::exp(rival.log_odds), rival.shifts[w]}).probability;
+    for (MeasuredElsewhere& place : out) place.probability /= sum;
+    return out;
+  }
+
+  WallEstimate Estimate(size_t w, const std::optional<JointCovariances>& covariances, const std::vector<RivalPlace>& rivals) const {
     WallEstimate e;
     e.wall = state_.wall_ids[w];
     e.reference = frames_[e.wall.index()].reference;
@@ -163,22 +177,24 @@ class Optimizer {
       const CouplingOptions& c = options_.coupling;
       e.cov_all = Eigen::Vector4d(c.offset_tau1_m, c.yaw_tau1_rad, options_.tilt_sigma_rad, options_.thickness_sigma_m).cwiseAbs2().asDiagonal();
       e.cov = e.cov_all.topLeftCorner<2, 2>();
+      e.evidence.covariance = e.cov;
       return e;
     }
     e.cov_all = covariances->walls[w];
     e.cov = e.cov_all.topLeftCorner<2, 2>();
     if (held()) return e;
-    // Take the prior out again: what all the data say about this wall, with poses and place marginalised, decides its responsibility.
-    const Eigen::Matrix2d posterior = e.cov.inverse();
-    Eigen::Matrix2d data = posterior;
-    data.diagonal() -= priors_[w];
-    const Eigen::Vector2d least(1e-2 / (options_.coupling.offset_tau1_m * options_.coupling.offset_tau1_m),
-                                1e-2 / (options_.coupling.yaw_tau1_rad * options_.coupling.yaw_tau1_rad));
-    data.diagonal() += least;  // a wall that was hardly seen has next to no information of its own, never less
-    if (data.determinant() > 0 && data(0, 0) > 0) {
-      const Eigen::Vector2d measured = data.inverse() * (posterior * Eigen::Vector2d(e.deviation.offset_m, e.deviation.yaw_rad));
-      e.p_deviated = AssessMixture(measured, data.inverse(), options_.coupling).any;
-    }
+    const Eigen::Vector2d estimate(e.deviation.offset_m, e.deviation.yaw_rad);
+    e.evidence = WithoutPrior(estimate, e.cov, priors_[w], options_.coupling);
+    const std::vector<MeasuredElsewhere> places = Places(w, rivals);
+    for (const MeasuredElsewhere& place : places) e.place_sigma_m += place.probability * place.shift.x() * place.shift.x();
+    e.place_sigma_m = std::sqrt(e.place_sigma_m);
+    const WallBelief belief = BeliefOf(e.evidence, places, estimate, options_.coupling);
+    e.p_deviated = belief.p_deviated;
+    // Wider where the solve's covariance is that of one component alone.
+    Eigen::Vector4d widen = Eigen::Vector4d::Ones();
+    widen.head<2>() = belief.sigma.cwiseQuotient(e.cov.diagonal().cwiseSqrt()).cwiseMax(1.0);
+    e.cov_all = widen.asDiagonal() * e.cov_all * widen.asDiagonal();
+    e.cov = e.cov_all.topLeftCorner<2, 2>();
     return e;
   }
 

@@ -9,6 +9,7 @@
 #include "runtime/coupling/coupling.h"
 #include "runtime/mapping/sgraph.h"
 #include "runtime/optimization/estimation_mode.h"
+#include "runtime/optimization/wall_posterior.h"
 #include "schema/agraph.h"
 
 namespace plumb::runtime {
@@ -54,11 +55,15 @@ struct WallEstimate {
   WallId wall;
   SurfaceId reference;
   WallDeviation deviation;
-  Eigen::Matrix2d cov = Eigen::Matrix2d::Zero();  // of (offset_m, yaw_rad), poses and transform marginalised
+  // Of (offset_m, yaw_rad), poses and place marginalised. Two standard deviations cover the truth with 95 %, whichever component of the prior the wall
+  // belongs to and whichever of the places that the walls leave possible is the right one.
+  Eigen::Matrix2d cov = Eigen::Matrix2d::Zero();
+  WallEvidence evidence;                          // (offset_m, yaw_rad) as the data alone have it, at the estimated place
+  double place_sigma_m = 0;                       // how far other possible places would shift the offset, rms
   double tilt_rad = 0;                            // + the reference normal turns upwards
   double thickness_error_m = 0;                   // + thicker than planned
   Eigen::Matrix4d cov_all = Eigen::Matrix4d::Zero();  // of (offset, yaw, tilt, thickness error)
-  double p_deviated = 0;                          // responsibility of the mixture's wide components
+  double p_deviated = 0;                          // that the wall belongs to the mixture's wide components
   double num_points = 0;                          // over all its faces
   double observed_m2 = 0;
   std::vector<SeenSurface> seen;                  // by surface id

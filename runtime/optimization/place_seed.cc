@@ -21,6 +21,7 @@ constexpr size_t kMaxProposers = 60, kMaxPolished = 12;
 constexpr double kDistinct_m = 0.02;
 constexpr double kKeepMargin_nats = 1.0;
 constexpr double kSamePlace_m = 0.05;
+constexpr double kNoRival_nats = 7.0;  // less than a thousandth of the given place's probability moves no interval of 95 %
 constexpr std::array<double, 8> kToleranceSchedule_m{0.03, 0.02, 0.01, 0, 0, 0, 0, 0};
 
 struct Row {
@@ -69,7 +70,31 @@ class Seeder {
     return best;
   }
 
+  std::vector<RivalPlace> Rivals() const {
+    const double given = Cost(Polish(Correction::Zero()));
+    std::vector<RivalPlace> out;
+    std::vector<Correction> proposals = Proposals();
+    proposals.push_back(prior_);
+    for (const Correction& proposal : proposals) {
+      const Correction x = Polish(proposal);
+      RivalPlace rival{given - Cost(x), Shifts(x)};
+      const bool known = std::any_of(out.begin(), out.end(), [&](const RivalPlace& o) { return Same(o.shifts, rival.shifts); });
+      if (rival.log_odds > -kNoRival_nats && !known && !Same(rival.shifts, std::vector<Eigen::Vector2d>(rows_.size(), Eigen::Vector2d::Zero()))) out.push_back(rival);
+    }
+    return out;
+  }
+
  private:
+  std::vector<Eigen::Vector2d> Shifts(const Correction& x) const {
+    std::vector<Eigen::Vector2d> out;
+    for (const Row& r : rows_) out.emplace_back(r.J * x);
+    return out;
+  }
+
+  static bool Same(const std::vector<Eigen::Vector2d>& a, const std::vector<Eigen::Vector2d>& b) {
+    return std::equal(a.begin(), a.end(), b.begin(), [](const Eigen::Vector2d& p, const Eigen::Vector2d& q) { return std::abs(p.x() - q.x()) < kDistinct_m; });
+  }
+
   // By how much another place must be better than the given one. Where that is known from more than these walls, a single wall does not overrule it:
   // the margin is what one wall's word weighs, the odds of standing as planned against being anywhere else.
   double KeepMargin_nats() const {
@@ -196,22 +221,35 @@ class Seeder {
   const JointOptions& options_;
 };
 
-}  // namespace
+Eigen::Vector3d CenterOf(const std::vector<WallMeasurement>& walls, const std::vector<WallFrame>& frames) {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  for (const WallMeasurement& w : walls) center.head<2>() += frames[w.wall.index()].pivot.head<2>();
+  return center / static_cast<double>(walls.size());
+}
 
-PlaceSeed SeedPlace(const std::vector<WallMeasurement>& walls, const std::vector<WallFrame>& frames, const Eigen::Isometry3d& T_plan_map,
-                    const JointOptions& options) {
-  if (walls.empty()) return {T_plan_map, 0};
-  Eigen::Vector2d center = Eigen::Vector2d::Zero();
-  for (const WallMeasurement& w : walls) center += frames[w.wall.index()].pivot.head<2>();
-  center /= static_cast<double>(walls.size());
-
-  const Eigen::Vector3d c(center.x(), center.y(), 0);
+Seeder MakeSeeder(const std::vector<WallMeasurement>& walls, const std::vector<WallFrame>& frames, const Eigen::Isometry3d& T_plan_map,
+                  const JointOptions& options) {
+  const Eigen::Vector3d c = CenterOf(walls, frames);
   Correction prior = Correction::Zero();
   if (options.place) {
     const Eigen::Isometry3d off = *options.place * T_plan_map.inverse();
     prior << (off * c - c).head<2>(), std::atan2(off.linear()(1, 0), off.linear()(0, 0)), 0;
   }
-  const Correction x = Seeder(Rows(walls, frames, center), prior, options).Solve();
+  return {Rows(walls, frames, c.head<2>()), prior, options};
+}
+
+}  // namespace
+
+std::vector<RivalPlace> RivalPlaces(const std::vector<WallMeasurement>& walls, const std::vector<WallFrame>& frames, const Eigen::Isometry3d& T_plan_map,
+                                    const JointOptions& options) {
+  return walls.empty() ? std::vector<RivalPlace>() : MakeSeeder(walls, frames, T_plan_map, options).Rivals();
+}
+
+PlaceSeed SeedPlace(const std::vector<WallMeasurement>& walls, const std::vector<WallFrame>& frames, const Eigen::Isometry3d& T_plan_map,
+                    const JointOptions& options) {
+  if (walls.empty()) return {T_plan_map, 0};
+  const Eigen::Vector3d c = CenterOf(walls, frames);
+  const Correction x = MakeSeeder(walls, frames, T_plan_map, options).Solve();
   const Eigen::Isometry3d turn = Eigen::Translation3d(c + Eigen::Vector3d(x[0], x[1], 0)) *
                                  Eigen::AngleAxisd(x[2], Eigen::Vector3d::UnitZ()) * Eigen::Translation3d(-c);
   return {turn * T_plan_map, x[3]};

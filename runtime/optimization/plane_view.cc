@@ -32,15 +32,14 @@ PlaneView::PlaneView(const PlaneStats& stats, const ViewNoise& noise, size_t num
   v = m.v;
   // A surface rougher than the sensor tells less.
   const double point_variance = std::max(noise.point_sigma_m * noise.point_sigma_m, m.var_normal) * noise.correlation / m.count;
-  const double lever_m = (center - m.normal.dot(center) * m.normal).norm(), turned_m = lever_m * noise.smear_rad;
-  weight_center = 1.0 / std::sqrt(point_variance + noise.floor_m * noise.floor_m + noise.smear_m * noise.smear_m + turned_m * turned_m);
-  const auto direction_weight = [&](double variance) {
+  weight_center = 1.0 / std::sqrt(point_variance + noise.floor_m * noise.floor_m + noise.smear.OffsetVariance_m2(m.normal, center));
+  const auto direction_weight = [&](double variance, const Eigen::Vector3d& axis) {
     if (variance <= 0) return 0.0;
     const double edge_rad = noise.edge_m2 / (2 * variance);
-    return 1.0 / std::sqrt(point_variance / variance + noise.floor_rad * noise.floor_rad + noise.smear_rad * noise.smear_rad + static_cast<double>(num_views) * edge_rad * edge_rad);
+    return 1.0 / std::sqrt(point_variance / variance + noise.floor_rad * noise.floor_rad + noise.smear.TurnVariance_rad2(axis) + static_cast<double>(num_views) * edge_rad * edge_rad);
   };
-  weight_u = direction_weight(m.var_u);
-  weight_v = direction_weight(m.var_v);
+  weight_u = direction_weight(m.var_u, v);
+  weight_v = direction_weight(m.var_v, u);
 }
 
 }  // namespace plumb::runtime

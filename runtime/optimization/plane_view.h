@@ -19,9 +19,8 @@ struct PlaneMoments {
 
 struct ViewNoise {
   double point_sigma_m = 0.03, correlation = 10, floor_m = 0.005, floor_rad = 0.003;
-  // Of what the keyframe saw, by its unknown motion (Keyframe::smear_m): moved so far, and turned about the keyframe, so the more the further off.
-  double smear_m = 0, smear_rad = 0;
   double edge_m2 = 0.002;  // height times width of what clings to a surface's edge (frames, skirtings, rounded corners): it turns short views
+  Smear smear = {};        // of what the keyframe saw, by its unknown motion
 };
 
 // Residual of a predicted plane (n, d) in the view's frame: [(n.c + d) w_c, n.u w_u, n.v w_v]; zero on the points' own plane.

@@ -56,8 +56,7 @@ WallMeasurement Split(WallId wall, const NormalEquations& ne) {
 
 ViewNoise NoiseOf(const JointOptions& options, const Keyframe& seen_from) {
   ViewNoise noise = NoiseOf(options);
-  noise.smear_m = seen_from.smear_m;
-  noise.smear_rad = seen_from.smear_rad;
+  noise.smear = seen_from.smear;
   return noise;
 }
 

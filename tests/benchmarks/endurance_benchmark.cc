@@ -4,6 +4,7 @@
 // A second process simulates the scans (VLP-16, no deviations) and hands them on through a pipe, so that the memory shown is the localizer's.
 // Scans are fed as fast as it goes, odometry and graph in turn; `behind` is how far the graph would lag at that rate on a core of its own.
 #include <fmt/core.h>
+#include <malloc.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -95,11 +96,17 @@ double Memory_MB() {
   return static_cast<double>(resident) * static_cast<double>(::sysconf(_SC_PAGESIZE)) / 1e6;
 }
 
+// Of the resident memory, what is in use: the rest is what freed blocks left between them.
+double InUse_MB() {
+  const struct mallinfo2 info = ::mallinfo2();
+  return static_cast<double>(info.uordblks + info.hblkhd) / 1e6;
+}
+
 int Localize(const AGraph& plan, double period_s, int in) {
   runtime::Localizer localizer(plan);
-  fmt::print("{:>7} {:>9} {:>10} {:>10} {:>13} {:>10} {:>9} {:>9} {:>10}\n", "minute", "RSS MB", "keyframes", "surfaces", "odometry ms", "graph ms", "behind s",
+  fmt::print("{:>7} {:>9} {:>10} {:>10} {:>10} {:>13} {:>10} {:>9} {:>9} {:>10}\n", "minute", "RSS MB", "in use MB", "keyframes", "surfaces", "odometry ms", "graph ms", "behind s",
              "found %", "worst m");
-  fmt::print("{:>7} {:>9.0f}\n", 0, Memory_MB());
+  fmt::print("{:>7} {:>9.0f} {:>10.0f}\n", 0, Memory_MB(), InUse_MB());
   double odometry_ms = 0, graph_ms = 0, behind_ms = 0, worst_behind_ms = 0, worst_m = 0, next_s = kReportEvery_s;
   size_t scans = 0, localized = 0;
   Header header;
@@ -111,7 +118,7 @@ int Localize(const AGraph& plan, double period_s, int in) {
       for (const runtime::Keyframe& k : localizer.map().keyframes) keyframes += !k.merged;
       for (const runtime::MapSurface& s : localizer.map().surfaces) surfaces += !s.observations.empty();
       const double n = static_cast<double>(std::max<size_t>(scans, 1));
-      fmt::print("{:>7.0f} {:>9.0f} {:>5}/{:<5} {:>4}/{:<5} {:>12.1f} {:>10.1f} {:>9.1f} {:>9.1f} {:>10.3f}\n", scan.stamp_s / 60, Memory_MB(), keyframes,
+      fmt::print("{:>7.0f} {:>9.0f} {:>10.0f} {:>5}/{:<5} {:>4}/{:<5} {:>12.1f} {:>10.1f} {:>9.1f} {:>9.1f} {:>10.3f}\n", scan.stamp_s / 60, Memory_MB(), InUse_MB(), keyframes,
                  localizer.map().keyframes.size(), surfaces, localizer.map().surfaces.size(), odometry_ms / n, graph_ms / n, worst_behind_ms / 1e3,
                  100.0 * static_cast<double>(localized) / n, worst_m);
       std::fflush(stdout);

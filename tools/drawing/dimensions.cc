@@ -9,6 +9,8 @@
 #include <limits>
 #include <numbers>
 
+#include "tools/drawing/floor_plan.h"
+
 namespace plumb::tools {
 namespace {
 
@@ -74,7 +76,8 @@ class Facade {
 double Reach(const AGraph& graph, StoreyId storey, const Vector2d& outward) {
   double reach_m = std::numeric_limits<double>::lowest();
   for (const Surface& s : graph.surfaces) {
-    if (s.storey == storey) reach_m = std::max({reach_m, s.start.dot(outward), s.end.dot(outward)});
+    if (s.storey != storey) continue;
+    for (const Vector2d& p : PointsAlong(s)) reach_m = std::max(reach_m, p.dot(outward));
   }
   for (const Column& c : graph.columns) {
     for (const Vector2d& p : c.outline) {
@@ -190,8 +193,7 @@ OuterRectangle OuterRectangleOf(const AGraph& graph, StoreyId storey) {
   for (const bool exterior_only : {true, false}) {
     for (const Surface& s : graph.surfaces) {
       if (s.storey != storey || (exterior_only && s.room.valid())) continue;
-      add(s.start);
-      add(s.end);
+      for (const Vector2d& p : PointsAlong(s)) add(p);
     }
     if (!out.size.isEmpty()) break;
   }

@@ -7,6 +7,7 @@
 #include <iterator>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <set>
 
 #include "tools/drawing/section.h"
@@ -208,6 +209,19 @@ std::string FloorPlanStyle() {
 )";
 }
 
+Ring PointsAlong(const Surface& surface) {
+  if (!surface.arc) return {surface.start, surface.end};
+  constexpr double kStep_rad = 2 * std::numbers::pi / 180;
+  const Arc& arc = *surface.arc;
+  const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(arc.sweep_rad) / kStep_rad)));
+  Ring points;
+  for (int i = 0; i <= steps; ++i) {
+    const double angle_rad = arc.start_rad + arc.sweep_rad * i / steps;
+    points.push_back(arc.center + arc.radius_m * Vector2d(std::cos(angle_rad), std::sin(angle_rad)));
+  }
+  return points;
+}
+
 Eigen::AlignedBox2d BoundsOf(const AGraph& graph, StoreyId storey) {
   Eigen::AlignedBox2d box;
   const auto add_ring = [&box](const Ring& ring) {
@@ -217,7 +231,7 @@ Eigen::AlignedBox2d BoundsOf(const AGraph& graph, StoreyId storey) {
     if (w.storey == storey) add_ring(AxisRing(w));
   }
   for (const Surface& s : graph.surfaces) {
-    if (s.storey == storey) add_ring({s.start, s.end});
+    if (s.storey == storey) add_ring(PointsAlong(s));
   }
   for (const Column& c : graph.columns) {
     if (c.storey == storey) add_ring(c.outline);

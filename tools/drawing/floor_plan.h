@@ -14,6 +14,9 @@ inline constexpr double kSectionHeight_m = 1.1;  // above the storey's zero, as 
 // Style sheet for the classes that the drawing uses; colours are CSS variables with the light scheme as default.
 [[nodiscard]] std::string FloorPlanStyle();
 
+// Along the surface from start to end: its two ends, or points on its arc at most 2 degrees apart.
+[[nodiscard]] Ring PointsAlong(const Surface& surface);
+
 // What the storey's walls, surfaces and rooms cover, plan frame, metres; empty where it has none.
 [[nodiscard]] Eigen::AlignedBox2d BoundsOf(const AGraph& graph, StoreyId storey);
 

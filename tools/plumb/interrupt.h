@@ -4,7 +4,10 @@
 
 namespace plumb::tools {
 
-// While one lives, SIGINT, SIGTERM and SIGUSR1 only set a flag. One at a time.
+// By itself SIGUSR1 ends a program. To be called before anybody knows that a long job begins.
+void IgnoreReportRequests();
+
+// While one lives, SIGINT, SIGTERM and SIGUSR1 only set a flag; after it, SIGUSR1 does nothing. One at a time.
 class InterruptGuard {
  public:
   InterruptGuard();

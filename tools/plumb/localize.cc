@@ -34,7 +34,7 @@ struct LocalizeFlags {
   std::string plan, recording, output, updates;
   bool no_odometry = false;
   double tolerance_deg = 0.5;
-  std::vector<double> near_m;
+  std::string near_m;
   std::vector<std::string> rooms;
   double map_voxel_m = 0.02;
   runtime::LocalizerOptions options;
@@ -229,12 +229,28 @@ Expected<void> WriteRun(const LocalizeFlags& flags, const AGraph& plan, const Re
   return {};
 }
 
+// "1,2.5"; none if anything but numbers and commas is in it.
+std::optional<std::vector<double>> ParseNumbers(const std::string& text) {
+  std::vector<double> numbers;
+  for (size_t begin = 0; begin <= text.size();) {
+    const size_t end = std::min(text.find(',', begin), text.size());
+    if (!CLI::detail::lexical_cast(text.substr(begin, end - begin), numbers.emplace_back())) return std::nullopt;
+    begin = end + 1;
+  }
+  return numbers;
+}
+
 // Errors: kBadOption (no such room, with the nearest name; out of range).
 Expected<runtime::StartHint> HintOf(const LocalizeFlags& flags, const AGraph& plan) {
   runtime::StartHint hint;
-  if (flags.near_m.size() == 1) return Fail(ErrorCode::kBadOption, fmt::format("--near {}; must be X,Y or X,Y,SIGMA, m", flags.near_m[0]));
-  if (!flags.near_m.empty()) hint.near_m = Eigen::Vector2d(flags.near_m[0], flags.near_m[1]);
-  if (flags.near_m.size() == 3) hint.near_sigma_m = flags.near_m[2];
+  if (!flags.near_m.empty()) {
+    const auto numbers = ParseNumbers(flags.near_m);
+    if (!numbers || numbers->size() < 2 || numbers->size() > 3) {
+      return Fail(ErrorCode::kBadOption, fmt::format("--near {}; must be X,Y or X,Y,SIGMA in metres", flags.near_m));
+    }
+    hint.near_m = Eigen::Vector2d((*numbers)[0], (*numbers)[1]);
+    if (numbers->size() == 3) hint.near_sigma_m = (*numbers)[2];
+  }
   for (const std::string& name : flags.rooms) {
     std::vector<std::string> names;
     const size_t before = hint.rooms.size();
@@ -266,6 +282,7 @@ Expected<void> PrepareOutput(const std::string& folder) {
 }
 
 Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
+  IgnoreReportRequests();
   if (!(flags.tolerance_deg >= 0)) return session.Fail({ErrorCode::kBadOption, fmt::format("--tolerance-angle {}; must be >= 0", flags.tolerance_deg)});
   flags.options.deviations.min_yaw_rad = flags.tolerance_deg * std::numbers::pi / 180;
   flags.replay.given_odometry = !flags.no_odometry;
@@ -302,12 +319,15 @@ Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
   if (!info.time_to_localize_s) {
     session.console.Info(fmt::format("{}: not localized in {} scans: {}", flags.output, info.scans, info.last_reason));
     if (localizer.T_plan_map()) return Status::kFindings;
-    session.console.Info("drive through more rooms; if that does not help: another plan or storey? `plumb validate` looks at the plan, `plumb doctor` at the recording");
+    if (!results->tries.empty() && results->tries.back().guidance) session.console.Info(Advice(*results->tries.back().guidance));
+    session.console.Info(fmt::format("{}/hypotheses.json lists where it could be; drive through more rooms, or say --near or --room. If that does not help: another "
+                                     "plan or storey? `plumb validate` looks at the plan, `plumb doctor` at the recording", flags.output));
     return Status::kFindings;
   }
   session.console.Info(fmt::format("{}: localized after {:.1f} s, {} of {} scans; {} walls deviate, {} are missing, {} unplanned; {:.0f} ms per scan", flags.output,
                                    *info.time_to_localize_s, info.localized_scans, info.scans, info.deviated_walls, info.missing_walls,
                                    info.unplanned_walls, info.ms_per_scan));
+  if (flags.options.joint.mode == runtime::EstimationMode::kIs) session.console.Info("mode is: every wall is taken to stand as planned; deviations are not looked for");
   if (info.pace) {
     session.console.Info(fmt::format("{}: poses {:.0f} ms after their scan (99 %: {:.0f} ms); {} keyframes solved later, {} scans not mapped", flags.output,
                                      info.pace->latency_p50_ms, info.pace->latency_p99_ms, info.pace->held_solves, info.pace->unmapped_scans));
@@ -332,10 +352,10 @@ void AddLocalize(CLI::App& app, Session& session) {
   sub->add_option("REC", flags->recording, "recording folder: scans/*.pcd and, where there is one, odometry.tum")->required();
   sub->add_option("-o,--output", flags->output, "the run folder to write")->required()->type_name("RUN");
   sub->add_option("--near", flags->near_m, "the robot starts about here, plan frame; SIGMA is 2 unless given, m. A hint: what the robot sees may overrule it")
-      ->expected(2, 3)
-      ->delimiter(',')
       ->type_name("X,Y[,SIGMA]");
-  sub->add_option("--room", flags->rooms, "the robot starts in a room of this name (or source id); may be given again, for either. A hint")->type_name("NAME");
+  sub->add_option("--room", flags->rooms, "the robot starts in a room of this name (or source id); may be given again, for either. A hint")
+      ->type_name("NAME")
+      ->allow_extra_args(false);
   sub->add_flag("--no-odometry", flags->no_odometry, "do without the recording's odometry.tum");
   sub->add_option("--start", flags->replay.start_s, "leave out this much of the recording at its beginning, s");
   sub->add_option("--max-duration", flags->replay.max_duration_s, "stop after this much of the rest; 0: all of it, s");

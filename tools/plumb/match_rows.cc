@@ -1,6 +1,11 @@
 #include "tools/plumb/match_rows.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "schema/polygon.h"
 
@@ -39,15 +44,47 @@ HypothesisRow ToRow(const AGraph& plan, const runtime::Hypothesis& h, const Eige
   return row;
 }
 
+DriveToRow ToRow(const AGraph& plan, const runtime::Goal& goal) {
+  DriveToRow row;
+  for (const RoomId room : goal.rooms) {
+    row.rooms.push_back(room.valid() ? std::optional(room) : std::nullopt);
+    row.room_names.push_back(room.valid() ? plan.rooms[room.index()].name : "");
+  }
+  row.position_m = goal.position_m;
+  row.bearing_rad = goal.bearing_rad;
+  row.distance_m = goal.distance_m;
+  row.expected_nats = goal.expected_nats;
+  row.rivals_split = goal.rivals_split;
+  return row;
+}
+
 }  // namespace
 
 TryRow ToRow(const AGraph& plan, const runtime::MatchTry& attempt) {
-  TryRow row{attempt.stamp_s, VerdictName(attempt.result.verdict), attempt.result.reason, attempt.result.probability_outside, {}};
+  TryRow row{attempt.stamp_s, VerdictName(attempt.result.verdict), attempt.result.reason, attempt.result.probability_outside, {}, {}};
+  if (attempt.guidance) {
+    row.guidance = GuidanceRow{attempt.guidance->rivals, std::nullopt};
+    if (attempt.guidance->goal) row.guidance->drive_to = ToRow(plan, *attempt.guidance->goal);
+  }
   for (const runtime::Hypothesis& h : attempt.result.hypotheses) {
     if (!row.hypotheses.empty() && h.probability < kLeastProbability * row.hypotheses.front().probability) break;
     row.hypotheses.push_back(ToRow(plan, h, attempt.T_map_lidar));
   }
   return row;
+}
+
+std::string Advice(const GuidanceRow& guidance) {
+  const std::string places = fmt::format("{} places look alike", guidance.rivals + 1);
+  if (!guidance.drive_to) return places + "; no room in reach tells them apart: say where the robot starts (--near, --room)";
+  const DriveToRow& d = *guidance.drive_to;
+  const double bearing_deg = d.bearing_rad * 180 / std::numbers::pi;
+  std::vector<std::string> names;
+  for (const std::string& name : d.room_names) {
+    const std::string quoted = name.empty() ? "no room" : fmt::format("`{}`", name);
+    if (std::find(names.begin(), names.end(), quoted) == names.end()) names.push_back(quoted);
+  }
+  return fmt::format("{}; drive into the room {:.0f} m away, first {:.0f} degrees to the {}: it tells {} of them from the best (it may be {})", places,
+                     d.distance_m, std::abs(bearing_deg), bearing_deg < 0 ? "right" : "left", d.rivals_split, fmt::join(names, " or "));
 }
 
 }  // namespace plumb::tools

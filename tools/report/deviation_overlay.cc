@@ -10,6 +10,8 @@
 #include <numbers>
 #include <tuple>
 
+#include "tools/drawing/floor_plan.h"
+
 namespace plumb::tools {
 namespace {
 
@@ -38,6 +40,12 @@ Ring Footprint(const Wall& wall) {
 
 std::string Planned(const Surface& s, const SurfaceEntry& entry, const Sheet& sheet) {
   const char* style = entry.status == "as_planned" ? "as-planned" : "unobserved";
+  if (s.arc) {
+    std::string curve;
+    const Ring points = PointsAlong(s);
+    for (size_t i = 0; i < points.size(); ++i) curve += fmt::format("{}{}", i == 0 ? "M" : "L", sheet.At(points[i]));
+    return fmt::format("<path class=\"{}\" fill=\"none\" d=\"{}\"/>\n", style, curve);
+  }
   const Vector2d inset = 0.5 * kBand_m * s.normal.head<2>();
   return fmt::format("<path class=\"{}\" d=\"{}\"/>\n", style, sheet.Line(s.start + inset, s.end + inset));
 }

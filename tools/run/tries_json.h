@@ -24,12 +24,28 @@ struct HypothesisRow {
   double consistent_ratio = 0, explained_ratio = 0, through_ratio = 0;  // matcher.h: Hypothesis
 };
 
+// Where to drive so that the places are told apart.
+struct DriveToRow {
+  std::vector<std::optional<RoomId>> rooms;  // that it is under each of the places compared, best first
+  std::vector<std::string> room_names;
+  Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  // under the best place, plan frame
+  double bearing_rad = 0;                                // counter-clockwise from where the robot looks
+  double distance_m = 0, expected_nats = 0;
+  int rivals_split = 0;
+};
+
+struct GuidanceRow {
+  int rivals = 0;                      // places compared with the best one
+  std::optional<DriveToRow> drive_to;  // none: nothing in reach tells them apart
+};
+
 struct TryRow {
   double stamp_s = 0;
   std::string verdict;  // searching | ambiguous | unique
   std::string reason;   // why it is not unique
   double probability_outside = 0;
   std::vector<HypothesisRow> hypotheses;  // best first
+  std::optional<GuidanceRow> guidance;    // where places are open
 };
 
 [[nodiscard]] std::string TriesToJson(const std::vector<TryRow>& tries);

@@ -114,6 +114,24 @@ TEST(MatchSurfaces, NeverMatchesTheOtherFaceOfAWall) {
   EXPECT_EQ(scene.Of(house, in_a), SurfaceId(1));
 }
 
+// On a planar laser's line, a row of cupboards is as long and as straight as the wall behind it.
+TEST(MatchSurfaces, TakesNoFurnitureFrontOfAPlanarScanForAWallSeenFromBehind) {
+  const AGraph house = test::MakeHouse();
+  Scene scene;
+  scene.map.planar = true;
+  const uint32_t front = scene.Add({4.79, 0.5}, {4.79, 3.0});  // 15 cm before A's east wall
+  EXPECT_EQ(scene.Of(house, front), SurfaceId(1));  // nothing says that the wall is not there
+  const uint32_t other_face = scene.Add({5.06, 5.0}, {5.06, 1.0});
+  EXPECT_FALSE(scene.Of(house, front).valid());
+  EXPECT_EQ(scene.Of(house, other_face), SurfaceId(11));
+
+  Scene moved;  // both faces alike: the wall stands elsewhere
+  moved.map.planar = true;
+  const uint32_t in_a = moved.Add({4.79, 0.5}, {4.79, 3.0}), in_c = moved.Add({4.91, 5.0}, {4.91, 1.0});
+  EXPECT_EQ(moved.Of(house, in_a), SurfaceId(1));
+  EXPECT_EQ(moved.Of(house, in_c), SurfaceId(11));
+}
+
 TEST(MatchSurfaces, RespectsGatesOfOverlapHeightAndDistance) {
   const AGraph house = test::MakeHouse();
   Scene scene;

@@ -93,6 +93,7 @@ TEST(AssessDeviations, HardlySeenWallsAreUnobserved) {
   w.reference = WallFrames(house)[kEast].reference;
   w.deviation = {0.3, 0};
   w.cov = Eigen::Matrix2d::Identity() * 1e-6;
+  w.evidence = {{0.3, 0}, w.cov};
   w.cov_all = Eigen::Matrix4d::Identity() * 1e-6;
   w.p_deviated = 1;
   w.observed_m2 = 0.2;
@@ -101,8 +102,33 @@ TEST(AssessDeviations, HardlySeenWallsAreUnobserved) {
   for (const SurfaceDeviation& d : report.surfaces) EXPECT_EQ(d.status, SurfaceStatus::kUnobserved);
   estimate.walls[0].observed_m2 = 3;
   EXPECT_EQ(AssessDeviations(house, estimate).surfaces[9].status, SurfaceStatus::kDeviated);
+  estimate.walls[0].evidence.measured = {0.015, 0};
   estimate.walls[0].deviation = {0.015, 0};  // certain, but below what counts
   EXPECT_EQ(AssessDeviations(house, estimate).surfaces[9].status, SurfaceStatus::kAsPlanned);
+}
+
+TEST(AssessDeviations, WhatCouldNotHaveBeenFoundIsUnobservedAndNotAsPlanned) {
+  const AGraph house = test::MakeHouse();
+  JointResult estimate;
+  estimate.covariances_exact = true;
+  WallEstimate w;
+  w.wall = WallId(kEast);
+  w.reference = WallFrames(house)[kEast].reference;
+  w.cov_all = Eigen::Matrix4d::Identity() * 1e-6;
+  w.cov = w.cov_all.topLeftCorner<2, 2>();
+  w.evidence.covariance = Eigen::Vector2d(0.01 * 0.01, 1e-6).asDiagonal();
+  w.observed_m2 = 30;
+  estimate.walls.push_back(w);
+  const SurfaceDeviation sharp = AssessDeviations(house, estimate).surfaces[9];
+  EXPECT_EQ(sharp.status, SurfaceStatus::kAsPlanned);
+  EXPECT_NEAR(sharp.mdb_m, std::sqrt(17.1) * std::hypot(0.01, 0.005), 1e-3);
+  estimate.walls[0].evidence.covariance(0, 0) = 0.08 * 0.08;  // the tight prior holds it at zero all the same
+  const SurfaceDeviation blurred = AssessDeviations(house, estimate).surfaces[9];
+  EXPECT_EQ(blurred.status, SurfaceStatus::kUnobserved);
+  EXPECT_NEAR(blurred.mdb_m, 0.33, 0.01);
+  estimate.walls[0].evidence.covariance(0, 0) = 0.01 * 0.01;  // sharp, but the plan may as well lie 0.3 m further on
+  estimate.walls[0].place_sigma_m = 0.2;
+  EXPECT_EQ(AssessDeviations(house, estimate).surfaces[9].status, SurfaceStatus::kUnobserved);
 }
 
 TEST(DeviationsToJson, HasTheAgreedForm) {
@@ -122,7 +148,7 @@ TEST(DeviationsToJson, HasTheAgreedForm) {
   EXPECT_EQ(east["status"], "deviated");
   EXPECT_NEAR(east["rotation_deg"], 3, 0.3);
   EXPECT_NEAR(std::abs(east["translation_m"].get<double>()), 0.2, 0.01);
-  for (const char* key : {"normal", "sigma_translation_m", "sigma_rotation_deg", "tilt_deg", "p_deviated", "observed_m2", "points"}) EXPECT_TRUE(east.contains(key));
+  for (const char* key : {"normal", "sigma_translation_m", "sigma_rotation_deg", "tilt_deg", "p_deviated", "mdb_m", "observed_m2", "points"}) EXPECT_TRUE(east.contains(key));
   ASSERT_EQ(json["rooms"].size(), 3u);
   for (const char* key : {"id", "name", "guid", "translation_m", "rotation_deg", "sigma_m", "status"}) EXPECT_TRUE(json["rooms"][2].contains(key));
   EXPECT_TRUE(json["unplanned"].empty());

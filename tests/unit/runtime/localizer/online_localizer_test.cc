@@ -101,7 +101,7 @@ TEST(UpdateToJson, TellsOfEachSurfaceOnceUntilItChanges) {
   EstimateUpdate update;
   update.stamp_s = 12.5;
   update.verdict = Verdict::kLocalized;
-  update.T_plan_map.translation() = Eigen::Vector3d(1, 2, 0.5);
+  update.T_plan_map = Eigen::Isometry3d(Eigen::Translation3d(1, 2, 0.5));
   update.deviations.surfaces.resize(2);
   for (size_t i = 0; i < 2; ++i) update.deviations.surfaces[i].surface = SurfaceId(i);
   update.deviations.surfaces[1].status = SurfaceStatus::kDeviated;
@@ -112,6 +112,9 @@ TEST(UpdateToJson, TellsOfEachSurfaceOnceUntilItChanges) {
             "{\"t\":12.5,\"verdict\":\"localized\",\"T_plan_map\":[1.0,2.0,0.5,0.0],\"surfaces\":[{\"id\":1,\"status\":\"deviated\",\"translation_m\":0.2,"
             "\"sigma_translation_m\":0.0,\"rotation_deg\":0.0,\"sigma_rotation_deg\":0.0,\"p_deviated\":0.0}]}\n");
   EXPECT_NE(UpdateToJson(update, told).find("\"surfaces\":[]"), std::string::npos);
+  EstimateUpdate lost = update;
+  lost.T_plan_map.reset();
+  EXPECT_NE(UpdateToJson(lost, told).find("\"T_plan_map\":null"), std::string::npos);
   for (int i = 0; i < 3; ++i) {  // a drift too slow to be news from line to line is, when it adds up
     update.deviations.surfaces[1].translation_m += 0.0004;
     EXPECT_EQ(UpdateToJson(update, told).find("\"surfaces\":[]") == std::string::npos, i == 2);

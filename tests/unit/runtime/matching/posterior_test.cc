@@ -63,6 +63,13 @@ TEST(Decide, AHintTellsApartWhatTheEvidenceDoesNot) {
   EXPECT_NEAR(overruled.hypotheses.front().log_likelihood, 120 - 6.9, 1e-9);
 }
 
+TEST(Decide, NoHintHoweverStrongOverrulesTheEvidence) {
+  Candidate hinted = Good(100), other = Good(102, 5);
+  hinted.log_prior = 11;
+  other.log_prior = -6.9;
+  EXPECT_EQ(Decided({hinted, other}).verdict, Verdict::kAmbiguous);
+}
+
 TEST(Decide, AHintIsNoEvidenceForThePlan) {
   Candidate poor = Good(9);
   poor.log_prior = 5;
@@ -132,6 +139,20 @@ TEST(Doubt, FewPlanesAreEnoughOnlyWhereRaysVouch) {
   EXPECT_EQ(Decided({few}).verdict, Verdict::kUnique);
   few.rays.explained_ratio = 0.5;
   EXPECT_EQ(Decided({few}).verdict, Verdict::kSearching);
+}
+
+TEST(Doubt, RaysThroughWallsAreForgivenWhereMorePlanesAgreeThanAreAskedFor) {
+  const MatcherOptions options;
+  Candidate c = Good(100);
+  c.rays.through_ratio = 0.5 * (options.accept_max_through_ratio + options.vouch_max_through_ratio);
+  const auto doubt = [&] { return Doubt(c, Hypothesis(), c.fit.consistent_planes - options.ample_more_planes, false, std::nullopt, options); };
+  EXPECT_EQ(doubt(), "");
+  EXPECT_NE(Doubt(c, Hypothesis(), c.fit.consistent_planes, false, std::nullopt, options), "") << "just as many as asked for";
+  c.fit.consistent_ratio = 0.5 * options.accept_min_consistent_ratio;
+  EXPECT_NE(doubt(), "") << "most walls are elsewhere";
+  c.fit.consistent_ratio = 0.9;
+  c.rays.through_ratio = 1.1 * options.vouch_max_through_ratio;
+  EXPECT_NE(doubt(), "");
 }
 
 TEST(RequiredPlanes, GrowWithTheNumberOfRooms) {

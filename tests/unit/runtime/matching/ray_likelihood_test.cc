@@ -79,6 +79,21 @@ TEST(JudgeRays, SeesRaysGoThroughAWallThatIsNotThere) {
   EXPECT_LT(JudgeRays(PlanIndex(built), view, At(view, 0, 0), MatcherOptions()).through_ratio, 0.002);
 }
 
+TEST(JudgeRays, ChargesAPlanarLaserNothingForWhatFurnitureStops) {
+  const AGraph empty = test::MakeHouse();
+  AGraph built = empty;
+  test::AddBox(built, {0.5, 0.5, 0}, {1.0, 3.0, 2}, test::AddElement(built, "shelf", ElementKind::kFurniture));
+  const PlanIndex plan(empty);
+  MapView view = ViewOf(built, test::kFromA);
+  const MatcherOptions options;
+  const RayEvidence charged = JudgeRays(plan, view, At(view, 0, 0), options);
+  view.planar = true;
+  const RayEvidence spared = JudgeRays(plan, view, At(view, 0, 0), options);
+  ASSERT_GT(spared.in_front_ratio, 0.05);
+  EXPECT_EQ(spared.in_front_ratio, charged.in_front_ratio);
+  EXPECT_NEAR(spared.log_likelihood - charged.log_likelihood, 0.5 * spared.in_front_ratio * spared.judged / options.rays_per_independent, 1e-6);
+}
+
 TEST(JudgeRays, DoesNotMindWhetherADoorIsOpen) {
   const AGraph open = test::MakeHouse();
   AGraph closed = open;

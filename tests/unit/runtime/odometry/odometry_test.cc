@@ -137,6 +137,24 @@ TEST(Odometry, GivenOdometryWithScaleErrorDoesNoHarm) {
   EXPECT_LT(drift.rms_m, 0.03);
 }
 
+// Heights are held unless seen: floor and ceiling show this one.
+TEST(Odometry, FollowsALiftThatFloorAndCeilingShow) {
+  const test::SyntheticLidar lidar(test::MakeHouse());
+  const auto pose_at = [](double t) {
+    Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+    T.translation() << 7, 3, 0.8 + 0.1 * std::clamp(t - 2.0, 0.0, 5.0);
+    return T;
+  };
+  Odometry odometry;
+  double worst_m = 0;
+  for (double t = 0; t < 9; t += kPeriod_s) {
+    const OdometryResult r = odometry.Register(lidar.Sweep(pose_at, t), std::nullopt);
+    ASSERT_TRUE(r.ok) << t;
+    worst_m = std::max(worst_m, std::abs(r.T_odom_lidar.translation().z() - (pose_at(t).translation().z() - 0.8)));
+  }
+  EXPECT_LT(worst_m, 0.05);
+}
+
 TEST(Odometry, BrokenGivenOdometryIsIgnored) {
   const auto given_at = [&](double t) {
     Eigen::Isometry3d T = Eigen::Isometry3d::Identity();

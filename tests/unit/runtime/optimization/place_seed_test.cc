@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -83,6 +84,46 @@ TEST(SeedPlace, AKnownPlaceOutweighsWallsThatAgreeOnAnother) {
   there.Add({5, 0}, {1, 0}, -0.3, 0, {0, 0, 0}, 0);
   there.Add({2, 3}, {0, -1}, 0, 0, {0, 0, 0}, 0);
   EXPECT_NEAR(SeedPlace(there.walls, there.frames, elsewhere, options).T_plan_map.translation().x(), 0, 0.05);
+}
+
+// So many walls that stand 0.3 m off at the place as known, and one that does not.
+PlaceSeed SeedWithWallsAgainst(int against) {
+  Scene scene;
+  scene.Add({5, 0}, {1, 0}, 0, 0, {0, 0, 0}, 0);
+  for (int i = 0; i < against; ++i) scene.Add({9.0 + i, 0}, {1, 0}, 0.3, 0, {0, 0, 0}, 0);
+  scene.Add({2, 3}, {0, -1}, 0, 0, {0, 0, 0}, 0);
+  JointOptions options;
+  options.place = Eigen::Isometry3d::Identity();
+  options.place_sigma_m = 0.1;
+  return SeedPlace(scene.walls, scene.frames, Eigen::Isometry3d::Identity(), options);
+}
+
+TEST(SeedPlace, AMajorityOfOneDoesNotOverruleAKnownPlaceOneOfTwoDoes) {
+  EXPECT_NEAR(SeedWithWallsAgainst(1).T_plan_map.translation().x(), 0, 0.02);
+  EXPECT_NEAR(SeedWithWallsAgainst(2).T_plan_map.translation().x(), 0, 0.02);
+  EXPECT_NEAR(SeedWithWallsAgainst(3).T_plan_map.translation().x(), -0.3, 0.02);
+}
+
+TEST(RivalPlaces, OneWallAgainstAnotherIsAnEvenBet) {
+  Scene scene;  // as planned here; 0.3 m further on, the second is
+  scene.Add({0, 0}, {1, 0}, 0, 0, {0, 0, 0}, 0);
+  scene.Add({5, 0}, {-1, 0}, 0.3, 0, {0, 0, 0}, 0);
+  scene.Add({2, 3}, {0, -1}, 0, 0, {0, 0, 0}, 0);
+  const std::vector<RivalPlace> rivals = RivalPlaces(scene.walls, scene.frames, Eigen::Isometry3d::Identity(), {});
+  const auto even = std::find_if(rivals.begin(), rivals.end(), [](const RivalPlace& r) { return std::abs(r.shifts[1].x() + 0.3) < 0.03; });
+  ASSERT_NE(even, rivals.end());
+  EXPECT_NEAR(even->log_odds, 0, 0.5);
+  EXPECT_NEAR(even->shifts[0].x(), 0.3, 0.03);
+  EXPECT_NEAR(even->shifts[2].x(), 0, 0.02);
+}
+
+TEST(RivalPlaces, NoneWhereMostWallsAgree) {
+  Scene scene;
+  for (const double x : {0.0, 2.0, 5.0}) scene.Add({x, 0}, {1, 0}, 0, 0, {0, 0, 0}, 0);
+  scene.Add({7, 0}, {-1, 0}, 0.3, 0, {0, 0, 0}, 0);
+  for (const double y : {0.0, 3.0}) scene.Add({2, y}, {0, -1}, 0, 0, {0, 0, 0}, 0);
+  EXPECT_TRUE(RivalPlaces(scene.walls, scene.frames, Eigen::Isometry3d::Identity(), {}).empty());
+  EXPECT_TRUE(RivalPlaces({}, {}, Eigen::Isometry3d::Identity(), {}).empty());
 }
 
 TEST(SeedPlace, LeavesWhatNoWallTells) {

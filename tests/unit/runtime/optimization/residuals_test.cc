@@ -100,6 +100,23 @@ TEST(PlaneView, IsZeroOnThePointsPlaneAndWeighsInSigmas) {
   EXPECT_LT(floored.weight_u, 1 / 0.003);
 }
 
+TEST(PlaneView, SmearBlursWhatItMovesAndTurnsOnly) {
+  test::Random random(4);
+  const auto points = Patch(random, 1000, 0.0);
+  const PlaneMoments m = ComputeMoments(StatsOf(points));
+  const auto view_with = [&](const Smear& smear) { return PlaneView(StatsOf(points), {0.03, 10, 0.005, 0.003, 0.0, smear}); };
+  const PlaneView sharp = view_with({});
+  const PlaneView along = view_with({.m2 = 0.05 * 0.05 * m.u * m.u.transpose()}), across = view_with({.m2 = 0.05 * 0.05 * m.normal * m.normal.transpose()});
+  EXPECT_NEAR(along.weight_center, sharp.weight_center, 1e-3 * sharp.weight_center) << "driving along a wall";
+  EXPECT_NEAR(1 / across.weight_center, std::hypot(1 / sharp.weight_center, 0.05), 1e-6) << "driving towards it";
+  EXPECT_NEAR(across.weight_u, sharp.weight_u, 1e-9);
+  // A turn about v moves the centre across by its distance along u, and turns the normal towards u.
+  const PlaneView turned = view_with({.rad2 = 0.02 * 0.02 * m.v * m.v.transpose()});
+  EXPECT_NEAR(1 / turned.weight_center, std::hypot(1 / sharp.weight_center, 0.02 * m.center.dot(m.u)), 1e-6);
+  EXPECT_NEAR(1 / turned.weight_u, std::hypot(1 / sharp.weight_u, 0.02), 1e-6);
+  EXPECT_NEAR(turned.weight_v, sharp.weight_v, 1e-6 * sharp.weight_v);
+}
+
 // Jacobian by automatic differentiation against central differences, for any residual over a list of parameter blocks.
 template <int kResiduals, class Call>
 void ExpectJacobian(const Call& call, const Eigen::VectorXd& x) {

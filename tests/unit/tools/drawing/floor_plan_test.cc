@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "tests/support/house.h"
 #include "tools/drawing/plan_sheet.h"
 
@@ -29,6 +31,20 @@ TEST(FloorPlanSvg, DrawsWallsDoorsAndRooms) {
   EXPECT_THAT(svg, HasSubstr(">A</text>"));
   EXPECT_THAT(svg, HasSubstr(">16.99 m²</text>"));
   EXPECT_EQ(svg, Svg(house));
+}
+
+TEST(FloorPlanSvg, HasRoomForCurvedWalls) {
+  AGraph house = test::MakeHouse();
+  const Eigen::AlignedBox2d straight = BoundsOf(house, StoreyId(0));
+  Surface round = house.surfaces[0];
+  round.arc = Arc{{straight.max().x(), 2}, 1.5, -std::numbers::pi / 2, std::numbers::pi};
+  round.start = {straight.max().x(), 0.5};
+  round.end = {straight.max().x(), 3.5};
+  house.surfaces.push_back(round);
+  EXPECT_NEAR(BoundsOf(house, StoreyId(0)).max().x(), straight.max().x() + 1.5, 1e-3);
+  const Ring points = PointsAlong(round);
+  EXPECT_TRUE(points.front().isApprox(round.start, 1e-9));
+  EXPECT_TRUE(points.back().isApprox(round.end, 1e-9));
 }
 
 TEST(FloorPlanSvg, FallsBackToTheAxisWhereAWallHasNoTriangles) {

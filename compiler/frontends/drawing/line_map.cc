@@ -11,8 +11,6 @@
 namespace plumb::compiler {
 namespace {
 
-
-
 // Makes points within a radius one; looks points up in a grid of cells of that size.
 class PointWelder {
  public:
@@ -47,8 +45,6 @@ class PointWelder {
   std::vector<uint32_t> next_;
   std::unordered_map<uint64_t, uint32_t> cells_;
 };
-
-
 
 struct Segment {
   uint32_t a, b, source;
@@ -235,7 +231,8 @@ void LineMap::PlaceHoles(const std::vector<uint32_t>& loops, const std::vector<d
     }
   }
   // From left to right: what a hole's ray to the left hits has its place already.
-  std::stable_sort(holes.begin(), holes.end(), [&](uint32_t x, uint32_t y) { return vertices_[leftmost[x]].x() < vertices_[leftmost[y]].x(); });
+  std::stable_sort(holes.begin(), holes.end(),
+                   [&](uint32_t x, uint32_t y) { return vertices_[leftmost[x]].x() < vertices_[leftmost[y]].x(); });
   for (const uint32_t l : holes) {
     const Eigen::Vector2d p = vertices_[leftmost[l]];
     const auto other = [&](uint32_t e) { return face_[2 * e] != l && face_[2 * e + 1] != l; };
@@ -249,7 +246,7 @@ void LineMap::PlaceHoles(const std::vector<uint32_t>& loops, const std::vector<d
 }
 
 std::optional<Eigen::Vector2d> LineMap::PointIn(uint32_t face) const {
-  constexpr double kReach_m = 2e-3, kOffLine_m = 1e-7;
+  constexpr double kReach_m = 0.1, kOffLine_m = 1e-7;
   const uint32_t start = loops_[face][0];
   uint32_t h = start, best = kNone;
   double best_m = 0;

@@ -14,6 +14,7 @@
 #include "compiler/frontends/drawing/opening_symbols.h"
 #include "compiler/frontends/drawing/openings_on_walls.h"
 #include "compiler/frontends/drawing/plane.h"
+#include "schema/polygon.h"
 
 namespace plumb::compiler {
 namespace {

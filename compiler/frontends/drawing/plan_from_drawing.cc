@@ -10,6 +10,7 @@
 #include "compiler/frontends/drawing/room_names.h"
 #include "compiler/frontends/drawing/wall_runs.h"
 #include "compiler/geometry/sweep.h"
+#include "schema/polygon.h"
 
 namespace plumb::compiler {
 namespace {
@@ -261,10 +262,13 @@ class StoreyBuilder {
   }
 
   void AddLeftover(const LineMap& map, uint32_t face) {
-    const auto ring = map.RingAt(map.LoopsOf(face)[0]);
-    if (map.AreaOf(face) < kMinLeftover_m2 || LesserSide(ring) < kSliver_m) return;
     Area area;
-    for (const uint32_t loop : map.LoopsOf(face)) area.push_back(map.RingAt(loop));
+    double around_m = 0;  // with the holes: what lies between a drawn curve and its run is a ring
+    for (const uint32_t loop : map.LoopsOf(face)) {
+      area.push_back(map.RingAt(loop));
+      around_m += LengthAround(area.back());
+    }
+    if (map.AreaOf(face) < kMinLeftover_m2 || 2 * map.AreaOf(face) < kSliver_m * around_m) return;
     const uint32_t source = map.edges()[map.LoopsOf(face)[0] / 2].source;
     PlanElement wall = NewElement(ElementKind::kWall, LocationOf(source));
     wall.uncut = Extrude(area, {0, 0, top_m_ - base_m_});

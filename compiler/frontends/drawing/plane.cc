@@ -12,19 +12,16 @@ Eigen::AlignedBox2d BoxOf(std::span<const Eigen::Vector2d> points) {
   return box;
 }
 
-bool Contains(std::span<const Eigen::Vector2d> ring, const Eigen::Vector2d& p) {
-  bool inside = false;
-  for (size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++) {
-    const Eigen::Vector2d &a = ring[i], &b = ring[j];
-    if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < a.x() + (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y())) inside = !inside;
-  }
-  return inside;
-}
-
 double AreaOf(std::span<const Eigen::Vector2d> ring) {
   double twice = 0;
   for (size_t i = 0; i < ring.size(); ++i) twice += Cross(ring[i] - ring[0], ring[(i + 1) % ring.size()] - ring[0]);
   return std::abs(0.5 * twice);
+}
+
+double LengthAround(std::span<const Eigen::Vector2d> ring) {
+  double length_m = 0;
+  for (size_t i = 0; i < ring.size(); ++i) length_m += (ring[(i + 1) % ring.size()] - ring[i]).norm();
+  return length_m;
 }
 
 double LesserSide(std::span<const Eigen::Vector2d> ring) {

@@ -17,8 +17,8 @@ inline constexpr uint32_t kNone = 0xffffffffu;
 [[nodiscard]] inline Eigen::Vector2d Perp(const Eigen::Vector2d& v) { return {-v.y(), v.x()}; }  // to the left
 
 [[nodiscard]] Eigen::AlignedBox2d BoxOf(std::span<const Eigen::Vector2d> points);
-[[nodiscard]] bool Contains(std::span<const Eigen::Vector2d> ring, const Eigen::Vector2d& p);
 [[nodiscard]] double AreaOf(std::span<const Eigen::Vector2d> ring);  // whichever way round
+[[nodiscard]] double LengthAround(std::span<const Eigen::Vector2d> ring);
 // The narrow side of the rectangle around `ring` that is turned as its longest side.
 [[nodiscard]] double LesserSide(std::span<const Eigen::Vector2d> ring);
 [[nodiscard]] double DistanceToLine(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b);  // between its ends

@@ -7,6 +7,7 @@
 #include "compiler/frontends/drawing/plane.h"
 #include "compiler/frontends/drawing/room_names.h"
 #include "compiler/geometry/box_tree.h"
+#include "schema/polygon.h"
 
 namespace plumb::compiler {
 namespace {

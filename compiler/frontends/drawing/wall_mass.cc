@@ -11,6 +11,7 @@
 #include "compiler/frontends/drawing/curve_edges.h"
 #include "compiler/frontends/drawing/plane.h"
 #include "compiler/geometry/box_tree.h"
+#include "schema/polygon.h"
 
 namespace plumb::compiler {
 namespace {

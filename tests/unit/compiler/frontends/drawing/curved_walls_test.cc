@@ -21,9 +21,10 @@ constexpr double kInner_m = 3.0, kOuter_m = 3.3, kMiddle_m = 3.15;
 
 Vector2d Polar(double radius_m, double angle_rad) { return radius_m * Vector2d(std::cos(angle_rad), std::sin(angle_rad)); }
 
-// Steps of three degrees at most.
-void AppendArc(double radius_m, double from_rad, double to_rad, std::vector<Vector2d>& out) {
-  const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(to_rad - from_rad) / 0.0524)));
+constexpr double kStep_rad = 0.0524;  // three degrees
+
+void AppendArc(double radius_m, double from_rad, double to_rad, std::vector<Vector2d>& out, double step_rad = kStep_rad) {
+  const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(to_rad - from_rad) / step_rad)));
   for (int i = 0; i <= steps; ++i) out.push_back(Polar(radius_m, from_rad + (to_rad - from_rad) * i / steps));
 }
 
@@ -37,11 +38,11 @@ DrawnPath Piece(double from_rad, double to_rad, LineRole role = LineRole::kWall)
   return out;
 }
 
-DrawnPath Circle(double radius_m) {
+DrawnPath Circle(double radius_m, double step_rad = kStep_rad) {
   DrawnPath out;
   out.role = LineRole::kWall;
   out.closed = true;
-  AppendArc(radius_m, 0, 2 * kPi, out.points);
+  AppendArc(radius_m, 0, 2 * kPi, out.points, step_rad);
   out.points.pop_back();
   return out;
 }
@@ -85,6 +86,26 @@ TEST(CurvedWalls, GapWithRadialJambsIsOneDoorway) {
   const AGraph graph = GraphOf(drawing);
   ExpectRoundRoom(graph);
   ExpectDoorAt(1, 1.0, graph);
+}
+
+// What the drawn facets leave of the wall beside its own steps is a ring some millimetres thin, and no wall.
+TEST(CurvedWalls, TwoCirclesOfAnyRadiusAndStepAreOneRoom) {
+  for (const double radius_m : {2.0, 3.0, 3.7, 3.8, 4.1, 4.7, 5.0, 5.8, 7.0, 9.0}) {
+    for (const double step_rad : {0.02, 0.0349, kStep_rad, 0.0873}) {
+      for (const double thickness_m : {0.2, 0.3}) {
+        SCOPED_TRACE(testing::Message() << "radius " << radius_m << " m, step " << step_rad << " rad, " << thickness_m << " m thick");
+        Drawing drawing;
+        drawing.paths = {Circle(radius_m, step_rad), Circle(radius_m + thickness_m, step_rad)};
+        const AGraph graph = GraphOf(drawing);
+        ASSERT_EQ(graph.rooms.size(), 1u);
+        EXPECT_NEAR(graph.rooms[0].area_m2, kPi * radius_m * radius_m, 0.01 * radius_m * radius_m);
+        for (const Surface& s : graph.surfaces) {
+          ASSERT_TRUE(s.arc.has_value());
+          EXPECT_NEAR(s.arc->radius_m, s.room.valid() ? radius_m : radius_m + thickness_m, 0.005);
+        }
+      }
+    }
+  }
 }
 
 TEST(CurvedWalls, LeafAndSwingOverAWallAllTheWayRoundAreOneDoorway) {

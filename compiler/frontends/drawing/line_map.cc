@@ -246,7 +246,7 @@ void LineMap::PlaceHoles(const std::vector<uint32_t>& loops, const std::vector<d
 }
 
 std::optional<Eigen::Vector2d> LineMap::PointIn(uint32_t face) const {
-  constexpr double kReach_m = 0.1, kOffLine_m = 1e-7;
+  constexpr double kReach_m = 0.04, kOffLine_m = 1e-7;
   const uint32_t start = loops_[face][0];
   uint32_t h = start, best = kNone;
   double best_m = 0;

@@ -52,7 +52,7 @@ class LineMap {
   [[nodiscard]] double AreaOf(uint32_t face) const { return area_m2_[face]; }  // without its holes
   // One half-edge of every boundary of the face: the outer one first, then holes.
   [[nodiscard]] const std::vector<uint32_t>& LoopsOf(uint32_t face) const { return loops_[face]; }
-  // Beside the middle of its longest side, halfway to what is across but no farther than 5 cm: lines that met
+  // Beside the middle of its longest side, halfway to what is across but no farther than 2 cm: lines that met
   // others lie some millimetres beside where they were drawn. None: the face has no inside.
   [[nodiscard]] std::optional<Eigen::Vector2d> PointIn(uint32_t face) const;
   [[nodiscard]] std::vector<Eigen::Vector2d> RingAt(uint32_t half_edge) const;

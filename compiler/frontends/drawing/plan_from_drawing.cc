@@ -263,12 +263,14 @@ class StoreyBuilder {
 
   void AddLeftover(const LineMap& map, uint32_t face) {
     Area area;
-    double around_m = 0;  // with the holes: what lies between a drawn curve and its run is a ring
+    double around_m = 0;
     for (const uint32_t loop : map.LoopsOf(face)) {
       area.push_back(map.RingAt(loop));
       around_m += LengthAround(area.back());
     }
-    if (map.AreaOf(face) < kMinLeftover_m2 || 2 * map.AreaOf(face) < kSliver_m * around_m) return;
+    // Between a drawn round wall and its run lies a ring as thin as its chords are off it, whatever its extent.
+    const double width_m = area.size() > 1 ? 2 * map.AreaOf(face) / around_m : LesserSide(area[0]);
+    if (map.AreaOf(face) < kMinLeftover_m2 || width_m < kSliver_m) return;
     const uint32_t source = map.edges()[map.LoopsOf(face)[0] / 2].source;
     PlanElement wall = NewElement(ElementKind::kWall, LocationOf(source));
     wall.uncut = Extrude(area, {0, 0, top_m_ - base_m_});

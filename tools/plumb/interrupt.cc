@@ -17,8 +17,6 @@ void OnReportSignal(int) { g_report_requested = 1; }
 
 }  // namespace
 
-void IgnoreReportRequests() { std::signal(SIGUSR1, SIG_IGN); }
-
 InterruptGuard::InterruptGuard() {
   g_requested = 0;
   g_report_requested = 0;
@@ -28,7 +26,7 @@ InterruptGuard::InterruptGuard() {
 
 InterruptGuard::~InterruptGuard() {
   for (const int signal : {SIGINT, SIGTERM}) std::signal(signal, SIG_DFL);
-  IgnoreReportRequests();  // what ended writes everything anyway
+  std::signal(SIGUSR1, SIG_IGN);  // what ended writes everything anyway
 }
 
 bool InterruptGuard::requested() const { return g_requested != 0; }

@@ -4,10 +4,7 @@
 
 namespace plumb::tools {
 
-// By itself SIGUSR1 ends a program. To be called before anybody knows that a long job begins.
-void IgnoreReportRequests();
-
-// While one lives, SIGINT, SIGTERM and SIGUSR1 only set a flag; after it, SIGUSR1 does nothing. One at a time.
+// While one lives, SIGINT, SIGTERM and SIGUSR1 only set a flag; before and after (main.cc) SIGUSR1 does nothing. One at a time.
 class InterruptGuard {
  public:
   InterruptGuard();

@@ -282,7 +282,6 @@ Expected<void> PrepareOutput(const std::string& folder) {
 }
 
 Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
-  IgnoreReportRequests();
   if (!(flags.tolerance_deg >= 0)) return session.Fail({ErrorCode::kBadOption, fmt::format("--tolerance-angle {}; must be >= 0", flags.tolerance_deg)});
   flags.options.deviations.min_yaw_rad = flags.tolerance_deg * std::numbers::pi / 180;
   flags.replay.given_odometry = !flags.no_odometry;

@@ -3,6 +3,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <csignal>
 #include <exception>
 #include <new>
 #include <string>
@@ -100,6 +101,7 @@ CLI::App* AddSubcommand(CLI::App& app, Session& session, const std::string& name
 }  // namespace plumb::tools
 
 int main(int argc, char** argv) {
+  std::signal(SIGUSR1, SIG_IGN);  // a request for a report (interrupt.h) that comes early must not end what it asks about
   plumb::tools::Session session;
   try {
 #ifndef PLUMB_SECOND_PROGRAM

@@ -49,8 +49,8 @@ size_t CountWalls(const AGraph& plan, const runtime::DeviationReport& report, ru
   return walls.size();
 }
 
-RunInfo Describe(const LocalizeFlags& flags, const CLI::App& sub, const AGraph& plan, const ReplayResults& results, const runtime::Localizer& localizer,
-                 const runtime::DeviationReport& report) {
+RunInfo Describe(const LocalizeFlags& flags, const CLI::App& sub, const AGraph& plan, const ReplayResults& results,
+                 const runtime::Localizer& localizer, const runtime::DeviationReport& report) {
   RunInfo info;
   info.plumb_version = PLUMB_VERSION;
   info.plan_path = fs::absolute(flags.plan).lexically_normal().string();
@@ -100,7 +100,8 @@ Expected<void> WriteRun(const LocalizeFlags& flags, const AGraph& plan, const Re
       {"verdicts.csv", VerdictsToCsv(results.verdicts)},
       {"hypotheses.json", TriesToJson(results.tries)},
       {"timing.csv", TimingToCsv(results.timing)},
-      {"map.ply", PointsToPly(AsBuiltCloud(localizer, flags.map_voxel_m), fmt::format("as built, {} frame, metres", localizer.T_plan_map() ? "plan" : "map"))},
+      {"map.ply", PointsToPly(AsBuiltCloud(localizer, flags.map_voxel_m),
+                              fmt::format("as built, {} frame, metres", localizer.T_plan_map() ? "plan" : "map"))},
       {"sgraph.json", runtime::SGraphToJson(localizer.map(), layers, localizer.T_plan_map())},
       {"deviations.json", runtime::DeviationsToJson(plan, report)},
       {"run.json", RunInfoToJson(info)},
@@ -137,29 +138,36 @@ std::string CompleteOptions(LocalizeFlags& flags) {
   return {};
 }
 
-void SayNotLocalized(const std::string& folder, const RunInfo& info, const ReplayResults& results, const runtime::Localizer& localizer, Console& console) {
+void SayNotLocalized(const std::string& folder, const RunInfo& info, const ReplayResults& results, const runtime::Localizer& localizer,
+                     Console& console) {
   console.Info(fmt::format("{}: not localized in {} scans: {}", folder, info.scans, info.last_reason));
   if (localizer.T_plan_map()) return;
   if (!results.tries.empty() && results.tries.back().guidance) console.Info(Advice(*results.tries.back().guidance));
-  console.Info(fmt::format("{}/hypotheses.json lists where it could be; drive through more rooms, or say --near or --room. If that does not help: another "
-                           "plan or storey? `plumb validate` looks at the plan, `plumb doctor` at the recording", folder));
+  console.Info(fmt::format(
+      "{}/hypotheses.json lists where it could be; drive through more rooms, or say --near or --room. If that does not help: another "
+      "plan or storey? `plumb validate` looks at the plan, `plumb doctor` at the recording",
+      folder));
 }
 
 void SayLocalized(const LocalizeFlags& flags, const RunInfo& info, Console& console) {
-  console.Info(fmt::format("{}: localized after {:.1f} s, {} of {} scans; {} walls deviate, {} are missing, {} unplanned; {:.0f} ms per scan", flags.output,
-                           *info.time_to_localize_s, info.localized_scans, info.scans, info.deviated_walls, info.missing_walls, info.unplanned_walls,
-                           info.ms_per_scan));
-  if (flags.options.joint.mode == runtime::EstimationMode::kIs) console.Info("mode is: every wall is taken to stand as planned; deviations are not looked for");
+  console.Info(
+      fmt::format("{}: localized after {:.1f} s, {} of {} scans; {} walls deviate, {} are missing, {} unplanned; {:.0f} ms per scan",
+                  flags.output, *info.time_to_localize_s, info.localized_scans, info.scans, info.deviated_walls, info.missing_walls,
+                  info.unplanned_walls, info.ms_per_scan));
+  if (flags.options.joint.mode == runtime::EstimationMode::kIs)
+    console.Info("mode is: every wall is taken to stand as planned; deviations are not looked for");
   if (info.pace) {
-    console.Info(fmt::format("{}: poses {:.0f} ms after their scan (99 %: {:.0f} ms); {} keyframes solved later, {} scans not mapped", flags.output,
-                             info.pace->latency_p50_ms, info.pace->latency_p99_ms, info.pace->held_solves, info.pace->unmapped_scans));
+    console.Info(fmt::format("{}: poses {:.0f} ms after their scan (99 %: {:.0f} ms); {} keyframes solved later, {} scans not mapped",
+                             flags.output, info.pace->latency_p50_ms, info.pace->latency_p99_ms, info.pace->held_solves,
+                             info.pace->unmapped_scans));
   }
 }
 
 // What came of it, and the exit status that says so.
-Status Conclude(const LocalizeFlags& flags, const RunInfo& info, const ReplayResults& results, const runtime::Localizer& localizer, size_t num_scans,
-                Console& console) {
-  if (info.interrupted) console.Error(fmt::format("interrupted after {} of {} scans; {} has what was known by then", info.scans, num_scans, flags.output));
+Status Conclude(const LocalizeFlags& flags, const RunInfo& info, const ReplayResults& results, const runtime::Localizer& localizer,
+                size_t num_scans, Console& console) {
+  if (info.interrupted)
+    console.Error(fmt::format("interrupted after {} of {} scans; {} has what was known by then", info.scans, num_scans, flags.output));
   if (!info.time_to_localize_s) {
     SayNotLocalized(flags.output, info, results, localizer, console);
     return Status::kFindings;
@@ -212,7 +220,8 @@ void AddLocalize(CLI::App& app, Session& session) {
   sub->add_option("FILE.agraph", flags->plan, "the plan")->required();
   sub->add_option("REC", flags->recording, "recording folder: scans/*.pcd and, where there is one, odometry.tum")->required();
   sub->add_option("-o,--output", flags->output, "the run folder to write")->required()->type_name("RUN");
-  sub->add_option("--near", flags->near_m, "the robot starts about here, plan frame; SIGMA is 2 unless given, m. A hint: what the robot sees may overrule it")
+  sub->add_option("--near", flags->near_m,
+                  "the robot starts about here, plan frame; SIGMA is 2 unless given, m. A hint: what the robot sees may overrule it")
       ->type_name("X,Y[,SIGMA]");
   sub->add_option("--room", flags->rooms, "the robot starts in a room of this name (or source id); may be given again, for either. A hint")
       ->type_name("NAME")
@@ -220,23 +229,32 @@ void AddLocalize(CLI::App& app, Session& session) {
   sub->add_flag("--no-odometry", flags->no_odometry, "do without the recording's odometry.tum");
   sub->add_option("--start", flags->replay.start_s, "leave out this much of the recording at its beginning, s");
   sub->add_option("--max-duration", flags->replay.max_duration_s, "stop after this much of the rest; 0: all of it, s");
-  sub->add_option("--threads", flags->replay.threads, "threads to work with; 0: all the machine has. The results are the same for any number");
+  sub->add_option("--threads", flags->replay.threads,
+                  "threads to work with; 0: all the machine has. The results are the same for any number");
   sub->add_option("--rate", flags->replay.rate,
-                  "give scans at this multiple of the pace they were recorded at, as on a robot, and report latencies; 0: as fast as it goes, reproducibly");
+                  "give scans at this multiple of the pace they were recorded at, as on a robot, and report latencies; 0: as fast as it "
+                  "goes, reproducibly");
   sub->add_option_function<std::string>(
-         "--matcher", [flags](const std::string& name) { flags->options.matcher_kind = name == kGraphMatcher ? runtime::MatcherKind::kGraph : runtime::MatcherKind::kWall; },
-         "what finds the robot: wall, walls and rays; graph, rooms and their walls as in the paper, for comparison: needs two rooms with four walls")
-      ->check(CLI::IsMember({kWallMatcher, kGraphMatcher}))->default_str(kWallMatcher);
+         "--matcher",
+         [flags](const std::string& name) {
+           flags->options.matcher_kind = name == kGraphMatcher ? runtime::MatcherKind::kGraph : runtime::MatcherKind::kWall;
+         },
+         "what finds the robot: wall, walls and rays; graph, rooms and their walls as in the paper, for comparison: needs two rooms with "
+         "four walls")
+      ->check(CLI::IsMember({kWallMatcher, kGraphMatcher}))
+      ->default_str(kWallMatcher);
   sub->add_option("--tolerance", o.deviations.min_offset_m, "walls displaced by less are as planned, m");
   sub->add_option("--tolerance-angle", flags->tolerance_deg, "walls turned by less are as planned, deg");
   sub->add_option("--false-discovery-rate", o.deviations.false_discovery_rate, "share of wrong ones among the walls reported");
-  sub->add_option("--accept-probability", o.matcher.accept_probability, "a place in the plan is accepted from this posterior probability on");
+  sub->add_option("--accept-probability", o.matcher.accept_probability,
+                  "a place in the plan is accepted from this posterior probability on");
   sub->add_option_function<std::string>(
          "--mode", [flags](const std::string& name) { flags->options.joint.mode = *runtime::ParseMode(name); },
          "what is estimated: dis all; is no deviations; uc all walls weighted alike; so all at once, with no consensus on the place before")
       ->check(CLI::IsMember(runtime::ModeNames()))->default_str(runtime::ModeName(o.joint.mode));
   sub->add_option("--updates", flags->updates,
-                  "write a line of JSON here after every solve while driving: t, verdict, T_plan_map, changed surfaces. SIGUSR1 writes deviations.json as it is then");
+                  "write a line of JSON here after every solve while driving: t, verdict, T_plan_map, changed surfaces. SIGUSR1 writes "
+                  "deviations.json as it is then");
   sub->add_option("--map-voxel", flags->map_voxel_m, "map.ply keeps one point of each cube with this edge, m");
   sub->callback([flags, sub, &session] { session.status = RunLocalize(*flags, *sub, session); });
 }

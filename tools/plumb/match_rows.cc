@@ -83,8 +83,9 @@ std::string Advice(const GuidanceRow& guidance) {
     const std::string quoted = name.empty() ? "no room" : fmt::format("`{}`", name);
     if (std::find(names.begin(), names.end(), quoted) == names.end()) names.push_back(quoted);
   }
-  return fmt::format("{}; drive into the room {:.0f} m away, first {:.0f} degrees to the {}: it tells {} of them from the best (it may be {})", places,
-                     d.distance_m, std::abs(bearing_deg), bearing_deg < 0 ? "right" : "left", d.rivals_split, fmt::join(names, " or "));
+  return fmt::format(
+      "{}; drive into the room {:.0f} m away, first {:.0f} degrees to the {}: it tells {} of them from the best (it may be {})", places,
+      d.distance_m, std::abs(bearing_deg), bearing_deg < 0 ? "right" : "left", d.rivals_split, fmt::join(names, " or "));
 }
 
 }  // namespace plumb::tools

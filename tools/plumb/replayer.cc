@@ -35,7 +35,8 @@ class Collector {
     const runtime::ScanVerdict& verdict = scan.verdict;
     if (!verdict.in_order) {
       if (results_.unordered_scans++ == 0) {
-        console_.Info(fmt::format("the scan at {:.9f} s does not come after the one before it: left out, as all others of that kind", verdict.stamp_s));
+        console_.Info(fmt::format("the scan at {:.9f} s does not come after the one before it: left out, as all others of that kind",
+                                  verdict.stamp_s));
       }
       return true;
     }
@@ -74,7 +75,8 @@ class Collector {
 
 }  // namespace
 
-Replayer::Replayer(const AGraph& plan, const runtime::LocalizerOptions& localizer, const runtime::ReplayOptions& replay) : plan_(plan), replay_(replay) {
+Replayer::Replayer(const AGraph& plan, const runtime::LocalizerOptions& localizer, const runtime::ReplayOptions& replay)
+    : plan_(plan), replay_(replay) {
   if (replay.rate > 0) {
     online_.emplace(plan, localizer, replay.online);
   } else {
@@ -102,7 +104,8 @@ void Replayer::AddGraphSide(ReplayResults& results) {
   for (runtime::OnlineLocalizer::StampedTime& t : online_->TakeGraphTimes()) {
     results.timing.push_back({t.stamp_s, std::move(t.time.stage), t.time.ms});
   }
-  std::stable_sort(results.timing.begin(), results.timing.end(), [](const TimingRow& a, const TimingRow& b) { return a.stamp_s < b.stamp_s; });
+  std::stable_sort(results.timing.begin(), results.timing.end(),
+                   [](const TimingRow& a, const TimingRow& b) { return a.stamp_s < b.stamp_s; });
   const runtime::OnlineCounts counts = online_->counts();
   results.pace->rate = replay_.rate;
   results.pace->held_solves = counts.held_solves;

@@ -8,12 +8,13 @@
 #include <iterator>
 #include <set>
 
-#include "tools/report/deviation_overlay.h"
 #include "tools/drawing/floor_plan.h"
 #include "tools/drawing/plan_sheet.h"
 #include "tools/drawing/room_labels.h"
-#include "tools/report/report_page.h"
 #include "tools/drawing/svg.h"
+#include "tools/report/deviation_overlay.h"
+#include "tools/report/place_overlay.h"
+#include "tools/report/report_page.h"
 #include "tools/report/trajectory_overlay.h"
 
 namespace plumb::tools {
@@ -67,21 +68,32 @@ std::string Notes(const RunInfo& info, const Deviations& deviations) {
   return out;
 }
 
+// The try whose places are worth showing: the last one of a run that has no place.
+const TryRow* OpenTry(const Run& run) {
+  const bool found = std::any_of(run.verdicts.begin(), run.verdicts.end(), [](const VerdictRow& v) { return v.verdict == "localized"; });
+  return found || run.tries.empty() ? nullptr : &run.tries.back();
+}
+
 std::string Figure(const AGraph& plan, StoreyId storey, const Run& run, const std::vector<WallRow>& rows, double limit_m) {
   const Sheet sheet = SheetOf(plan, storey);
+  const TryRow* open = OpenTry(run);
   return fmt::format(
       "<figure><figcaption>{}</figcaption>\n<svg class=\"plan\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"floor plan\">\n"
       "<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n{}<g class=\"layer-surfaces\">\n{}</g>\n<g class=\"layer-way\">\n{}</g>\n"
       "<g class=\"layer-rooms\">\n{}</g>\n<g class=\"layer-surfaces\">\n{}</g>\n{}</svg></figure>\n",
       EscapeXml(plan.storeys[storey.index()].name), Decimal(sheet.width()), Decimal(sheet.height()), DrawFloorPlan(plan, storey, sheet),
       DrawSurfaces(plan, storey, run.deviations, limit_m, sheet) + DrawUnplanned(plan, storey, run.deviations, sheet),
-      DrawTrajectory(plan, storey, run, sheet), DrawRoomLabels(plan, storey, sheet), DrawWallNumbers(plan, storey, rows, sheet),
+      DrawTrajectory(plan, storey, run, sheet) + (open ? DrawPlaces(plan, storey, *open, sheet) : ""), DrawRoomLabels(plan, storey, sheet), DrawWallNumbers(plan, storey, rows, sheet),
       DrawScaleBar(sheet, 30, sheet.height() - 45));
 }
 
-// Storeys that the robot was on; all of them where its way is not known.
+// Storeys that the robot was or may be on; all of them where nothing is known.
 std::set<StoreyId> VisitedStoreys(const AGraph& plan, const Run& run) {
   std::set<StoreyId> visited;
+  if (const TryRow* open = OpenTry(run)) {
+    for (const HypothesisRow& h : open->hypotheses) visited.insert(StoreyAt(plan, h.position_m.z()));
+    if (!visited.empty()) return visited;
+  }
   for (const auto& pose : run.smoothed) visited.insert(StoreyAt(plan, pose.T.translation().z()));
   for (size_t i = 0; run.smoothed.empty() && i < plan.storeys.size(); ++i) visited.insert(StoreyId(i));
   return visited;
@@ -143,6 +155,7 @@ std::string WallTable(const AGraph& plan, const std::vector<WallRow>& rows) {
       unobserved == 0
           ? ""
           : fmt::format("<p class=\"note\">Walls that were not observed well enough to judge: {} of {}.</p>\n", unobserved, rows.size());
+  if (body.empty()) return "<h2>Walls</h2>\n" + rest;
   return fmt::format(
       "<h2>Walls</h2>\n<div class=\"scroll\"><table><thead><tr><th class=\"t\"></th><th class=\"t\">wall</th><th "
       "class=\"t\">storey</th><th class=\"t\">"
@@ -238,8 +251,8 @@ Expected<std::string> RunToHtml(const AGraph& plan, const Run& run, const RunInf
       "<p class=\"sub\">where the robot was, and how far each wall stands from where the plan has "
       "it</p>\n{5}{6}<h2>Plan</h2>\n{7}{8}{9}{10}"
       "<script>\n{11}</script>\n</body></html>\n",
-      title, FloorPlanStyle(), DeviationStyle(), TrajectoryStyle(), PageStyle(), Tiles(info, run.deviations, rows),
-      Notes(info, run.deviations), Figures(plan, run, rows), WallTable(plan, rows) + UnplannedTable(plan, run.deviations),
+      title, FloorPlanStyle(), DeviationStyle(), TrajectoryStyle() + PlaceStyle(), PageStyle(), Tiles(info, run.deviations, rows),
+      Notes(info, run.deviations), Figures(plan, run, rows) + (OpenTry(run) ? PlacesHtml(*OpenTry(run)) : ""), WallTable(plan, rows) + UnplannedTable(plan, run.deviations),
       RoomTable(plan, run.deviations), Footer(info), PageScript());
 }
 

@@ -159,6 +159,12 @@ Expected<Run> ReadRun(const std::string& folder) {
   if (!deviations) return tl::unexpected(deviations.error());
   run.deviations = std::move(*deviations);
 
+  if (const auto text = ReadFileText(path("hypotheses.json")); text) {
+    auto tries = ParseTries(*text, path("hypotheses.json"));
+    if (!tries) return tl::unexpected(tries.error());
+    run.tries = std::move(*tries);
+  }
+
   auto online = ReadRunTrajectory(path("trajectory.tum"));
   if (!online) return tl::unexpected(online.error());
   run.online = std::move(*online);

@@ -37,6 +37,7 @@ HypothesisRow ToRow(const AGraph& plan, const runtime::Hypothesis& h, const Eige
   row.consistent_ratio = h.consistent_ratio;
   row.explained_ratio = h.explained_ratio;
   row.through_ratio = h.through_ratio;
+  row.in_front_ratio = h.in_front_ratio;
   return row;
 }
 

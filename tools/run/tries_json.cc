@@ -35,6 +35,7 @@ Json HypothesisToJson(const HypothesisRow& h) {
   out["consistent_ratio"] = Rounded(h.consistent_ratio, 1e-3);
   out["explained_ratio"] = Rounded(h.explained_ratio, 1e-3);
   out["through_ratio"] = Rounded(h.through_ratio, 1e-3);
+  out["in_front_ratio"] = Rounded(h.in_front_ratio, 1e-3);
   return out;
 }
 
@@ -70,6 +71,7 @@ HypothesisRow ParseHypothesis(const Json& json) {
   json.at("consistent_ratio").get_to(h.consistent_ratio);
   json.at("explained_ratio").get_to(h.explained_ratio);
   json.at("through_ratio").get_to(h.through_ratio);
+  json.at("in_front_ratio").get_to(h.in_front_ratio);
   return h;
 }
 

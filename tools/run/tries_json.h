@@ -22,7 +22,7 @@ struct HypothesisRow {
   std::optional<RoomId> room;  // that it stands in
   std::string room_name;
   int consistent_planes = 0;
-  double consistent_ratio = 0, explained_ratio = 0, through_ratio = 0;  // matcher.h: Hypothesis
+  double consistent_ratio = 0, explained_ratio = 0, through_ratio = 0, in_front_ratio = 0;  // matcher.h: Hypothesis
 };
 
 // Where to drive so that the places are told apart.

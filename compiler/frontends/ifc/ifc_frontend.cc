@@ -117,9 +117,8 @@ class Frontend {
     }
     std::stable_sort(entries.begin(), entries.end(),
                      [](const Entry& a, const Entry& b) { return a.storey.elevation_m < b.storey.elevation_m; });
-    storey_of_.assign(model_.size(), kNoIndex);
     for (Entry& entry : entries) {
-      storey_of_[entry.instance] = static_cast<uint32_t>(plan_.storeys.size());
+      storey_of_.Set(entry.instance, static_cast<uint32_t>(plan_.storeys.size()));
       plan_.storeys.push_back(std::move(entry.storey));
     }
   }
@@ -163,6 +162,7 @@ class Frontend {
 
   void MakeElements() {
     element_of_.assign(products_.size(), kNoIndex);
+    plan_.elements.reserve(products_.size() + products_.CountFillings());  // of a door or window, its panes are one more
     for (uint32_t p = 0; p < products_.size(); ++p) {
       const Product& product = products_[p];
       if (product.whole != kNoIndex) continue;
@@ -192,7 +192,7 @@ class Frontend {
   // A shop front that is nothing but its doors.
   bool IsMadeOfFillings(const Product& product) const {
     return product.kind == ElementKind::kCurtainWall &&
-           std::any_of(product.fillings.begin(), product.fillings.end(), [&](uint32_t f) { return !products_[f].parts.empty(); });
+           std::any_of(product.fillings.begin(), product.fillings.end(), [&](uint32_t f) { return products_[f].has_body; });
   }
 
   bool HasUncut(uint32_t p) const {
@@ -330,7 +330,7 @@ class Frontend {
   OpeningTable openings_;
   PlanIr plan_;
   std::set<std::string> guids_;
-  std::vector<uint32_t> storey_of_;   // position in the plan, by instance
+  InstanceMap storey_of_;             // position in the plan
   std::vector<uint32_t> element_of_;  // by product
 };
 

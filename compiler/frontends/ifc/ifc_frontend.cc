@@ -16,6 +16,7 @@
 #include "compiler/frontends/ifc/ifc_product_table.h"
 #include "compiler/frontends/ifc/ifc_relations.h"
 #include "compiler/frontends/ifc/ifc_shape.h"
+#include "compiler/frontends/ifc/ifc_storeys.h"
 #include "compiler/frontends/ifc/ifc_units.h"
 #include "compiler/frontends/ifc/ifc_wall_proxies.h"
 
@@ -62,7 +63,7 @@ class Frontend {
       return {};
     }
     ReadNorth();
-    ReadStoreys();
+    plan_.storeys = storeys_.Read(model_, placements_);
     MakeElements();
     MakeOpenings();
     ReadSpaces();
@@ -95,39 +96,6 @@ class Frontend {
     }
   }
 
-  void ReadStoreys() {
-    struct Entry {
-      uint32_t instance;
-      PlanStorey storey;
-    };
-    std::vector<Entry> entries;
-    for (const uint32_t instance : model_.InstancesOf(IfcType::kIfcBuildingStorey)) {
-      const IfcInstance storey = model_.Get(instance);
-      PlanStorey out;
-      out.location = model_.Location(instance);
-      out.guid = out.location.guid;
-      out.name = TextOf(instance, attribute::kName);
-      if (out.name.empty()) out.name = TextOf(instance, attribute::kSpatialLongName);
-      if (storey[attribute::kPlacement].is_null()) {
-        out.elevation_m = model_.Length(storey, attribute::kStoreyElevation);
-      } else {
-        out.elevation_m = placements_.ObjectPlacement(storey[attribute::kPlacement]).translation().z();
-      }
-      entries.push_back({instance, std::move(out)});
-    }
-    std::stable_sort(entries.begin(), entries.end(),
-                     [](const Entry& a, const Entry& b) { return a.storey.elevation_m < b.storey.elevation_m; });
-    for (Entry& entry : entries) {
-      storey_of_.Set(entry.instance, static_cast<uint32_t>(plan_.storeys.size()));
-      plan_.storeys.push_back(std::move(entry.storey));
-    }
-  }
-
-  uint32_t StoreyOf(uint32_t instance) const {
-    const uint32_t storey = relations_.StoreyOf(instance);
-    return storey == kNone ? kNoIndex : storey_of_[storey];
-  }
-
   PlanElement BaseElement(const Product& product) const {
     PlanElement element;
     element.kind = product.kind;
@@ -135,7 +103,7 @@ class Frontend {
     element.guid = element.location.guid;
     element.type = element.location.type;
     element.name = TextOf(product.instance, attribute::kName);
-    element.storey = StoreyOf(product.instance);
+    element.storey = storeys_.Of(relations_.StoreyOf(product.instance));
     element.external = relations_.IsExternal(product.instance).value_or(false);
     return element;
   }
@@ -314,7 +282,7 @@ class Frontend {
       space.guid = space.location.guid;
       space.name = TextOf(instance, attribute::kName);
       space.long_name = TextOf(instance, attribute::kSpatialLongName);
-      space.storey = StoreyOf(instance);
+      space.storey = storeys_.Of(relations_.StoreyOf(instance));
       for (ShapePart& part : products_.PlacedBody(instance)) AppendSolid(std::move(part.solid), space.body);
       plan_.spaces.push_back(std::move(space));
     }
@@ -326,11 +294,11 @@ class Frontend {
   StyleReader styles_;
   ShapeReader shapes_;
   Relations relations_;
+  StoreyTable storeys_;
   ProductTable products_;
   OpeningTable openings_;
   PlanIr plan_;
   std::set<std::string> guids_;
-  InstanceMap storey_of_;             // position in the plan
   std::vector<uint32_t> element_of_;  // by product
 };
 

@@ -58,8 +58,9 @@ class Frontend {
   PlanIr Run() {
     if (model_.is_too_complex()) return {};
     if (!HasBuilding()) {
-      model_.Emit(DiagnosticKind::kNoBuilding, kNone,
-                  fmt::format("none of the {} instances of the file is a building, a storey, a space or a building element", model_.size()));
+      model_.Emit(
+          DiagnosticKind::kNoBuilding, kNone,
+          fmt::format("none of the {} instances of the file is a building, a storey, a space or a building element", model_.size()));
       return {};
     }
     ReadNorth();
@@ -171,10 +172,12 @@ class Frontend {
   bool ActsAsWall(uint32_t p) const {
     const Product& product = products_[p];
     if (!IsWallShaped(product.parts)) return false;
-    const bool is_named = IsWallName(TextOf(product.instance, attribute::kName)) || IsWallName(TextOf(product.instance, attribute::kObjectType));
+    const bool is_named =
+        IsWallName(TextOf(product.instance, attribute::kName)) || IsWallName(TextOf(product.instance, attribute::kObjectType));
     if (!is_named && !openings_.HasOpenings(p)) return false;
-    model_.Emit(DiagnosticKind::kProxyAsWall, product.instance,
-                fmt::format("{} is taken for a wall by its shape and its {}", model_.Label(product.instance), is_named ? "name" : "openings"));
+    model_.Emit(
+        DiagnosticKind::kProxyAsWall, product.instance,
+        fmt::format("{} is taken for a wall by its shape and its {}", model_.Label(product.instance), is_named ? "name" : "openings"));
     return true;
   }
 

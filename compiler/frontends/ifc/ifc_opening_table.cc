@@ -80,7 +80,8 @@ void OpeningTable::Cut(uint32_t product, ShapeParts& parts) {
 bool OpeningTable::CutGroup(uint32_t product, std::span<const Tool> group, Solid& body) {
   const Eigen::AlignedBox3d box = Bounds(body);
   std::vector<Tool> tools;
-  std::copy_if(group.begin(), group.end(), std::back_inserter(tools), [&](const Tool& tool) { return box.intersects(Bounds(*tool.solid)); });
+  std::copy_if(group.begin(), group.end(), std::back_inserter(tools),
+               [&](const Tool& tool) { return box.intersects(Bounds(*tool.solid)); });
   if (tools.size() > 1) {
     if (!SpendCut(body, tools)) return false;
     std::vector<const Solid*> solids;

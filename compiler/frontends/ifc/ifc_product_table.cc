@@ -57,7 +57,8 @@ ShapeParts ProductTable::PlacedBody(uint32_t instance) {
   KeepInRange(model_, instance, parts);
   if (triangles_ > options_.max_triangles && !model_.is_too_complex()) {
     model_.Emit(DiagnosticKind::kPlanTooComplex, instance,
-                fmt::format("the bodies up to {} have over {} triangles; at most that many are read", model_.Label(instance), options_.max_triangles));
+                fmt::format("the bodies up to {} have over {} triangles; at most that many are read", model_.Label(instance),
+                            options_.max_triangles));
   }
   return parts;
 }

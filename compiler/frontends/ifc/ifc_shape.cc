@@ -45,7 +45,9 @@ void TransformPart(const Affine3d& T_out_part, ShapePart& part) {
 }
 
 void KeepInRange(const IfcModel& model, uint32_t instance, ShapeParts& parts) {
-  const auto is_out = [](const ShapePart& part) { return !std::all_of(part.solid.vertices.begin(), part.solid.vertices.end(), IsCoordinate); };
+  const auto is_out = [](const ShapePart& part) {
+    return !std::all_of(part.solid.vertices.begin(), part.solid.vertices.end(), IsCoordinate);
+  };
   if (std::erase_if(parts, is_out) == 0) return;
   model.Emit(DiagnosticKind::kBadAttribute, instance,
              fmt::format("parts of {} reach over {} m from the origin; they are left out", model.Label(instance), kMaxCoordinate_m));
@@ -287,7 +289,8 @@ Solid ShapeReader::BoundingBox(const IfcInstance& item) const {
 
 // Programs cut a wall by a chain of results, each the first operand of the next: as long as the wall has cuts, so it takes no stack.
 ShapeParts ShapeReader::Boolean(const IfcInstance& item, int depth) {
-  const size_t longest = model_.InstancesOf(IfcType::kIfcBooleanResult).size() + model_.InstancesOf(IfcType::kIfcBooleanClippingResult).size();
+  const size_t longest =
+      model_.InstancesOf(IfcType::kIfcBooleanResult).size() + model_.InstancesOf(IfcType::kIfcBooleanClippingResult).size();
   std::vector<IfcInstance> chain;
   IfcInstance at = item;
   for (; at && IsBoolean(at.type); at = model_.Follow(at[attribute::kFirstOperand])) {

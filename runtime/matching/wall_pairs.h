@@ -20,7 +20,8 @@ struct WallPair {
 };
 
 // Signed distance of the map point p from a plan face under a pose, and its derivatives by (x, y, yaw, scale about the map's centre).
-[[nodiscard]] inline double FaceDistance(const PlanFace& face, const PlanarPose& pose, const Eigen::Vector2d& p, Eigen::Vector4d* jacobian) {
+[[nodiscard]] inline double FaceDistance(const PlanFace& face, const PlanarPose& pose, const Eigen::Vector2d& p,
+                                         Eigen::Vector4d* jacobian) {
   const Eigen::Vector2d turned = pose.rotation() * p;
   if (jacobian != nullptr) {
     const Eigen::Vector2d by_yaw(-turned.y(), turned.x());

@@ -66,7 +66,8 @@ class MapBuilder {
     for (const Eigen::Vector2d& v : graph_.vertices) points.emplace_back(v.x(), v.y());
     std::vector<Traits::X_monotone_curve_2> curves;
     for (auto& [ends, segments] : runs) {
-      curves.emplace_back(CGAL::Arr_segment_traits_2<Kernel>::X_monotone_curve_2(points[ends.first], points[ends.second]), static_cast<uint32_t>(runs_.size()));
+      curves.emplace_back(CGAL::Arr_segment_traits_2<Kernel>::X_monotone_curve_2(points[ends.first], points[ends.second]),
+                          static_cast<uint32_t>(runs_.size()));
       runs_.push_back(std::move(segments));
     }
     CGAL::insert(arrangement_, curves.begin(), curves.end());

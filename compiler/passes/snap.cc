@@ -69,7 +69,8 @@ Edges EdgesOf(const SnapGraph& graph) {
 }
 
 void ApplySplits(const Edges& edges, std::vector<Split>& splits, SnapGraph& graph) {
-  std::sort(splits.begin(), splits.end(), [](const Split& a, const Split& b) { return std::tie(a.edge, a.t, a.vertex) < std::tie(b.edge, b.t, b.vertex); });
+  std::sort(splits.begin(), splits.end(),
+            [](const Split& a, const Split& b) { return std::tie(a.edge, a.t, a.vertex) < std::tie(b.edge, b.t, b.vertex); });
   std::vector<size_t> first(edges.each.size() + 1, 0);
   for (const Split& split : splits) ++first[split.edge + 1];
   std::partial_sum(first.begin(), first.end(), first.begin());

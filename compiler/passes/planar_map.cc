@@ -24,8 +24,16 @@
 namespace plumb::compiler {
 namespace {
 
-// Winding number per outline: of footprints by their index, then of dividers. Those with 0 are left out.
-using Windings = std::map<uint32_t, int>;
+// Winding number per outline, in their order: of footprints by their index, then of dividers. Those with 0 are left out.
+using Windings = std::vector<std::pair<uint32_t, int>>;
+
+void AddTo(Windings& windings, uint32_t outline, int count) {
+  const auto at = std::lower_bound(windings.begin(), windings.end(), outline, [](const auto& w, uint32_t o) { return w.first < o; });
+  if (at == windings.end() || at->first != outline)
+    windings.insert(at, {outline, count});
+  else if ((at->second += count) == 0)
+    windings.erase(at);
+}
 
 struct FaceLabel {
   bool known = false;
@@ -117,16 +125,15 @@ class MapBuilder {
     }
   }
 
-  // How much the winding numbers on the left of `edge` exceed those on its right.
-  Windings StepOver(ConstHalfedge edge) const {
-    Windings out;
+  // Of the face on the right of `edge` after those of the one on its left.
+  Windings StepOver(ConstHalfedge edge, Windings windings) const {
     const bool edge_forward = edge->direction() == CGAL::ARR_LEFT_TO_RIGHT;
     ForEachSegment(edge, [&](const SnapSegment& s) {
       if (!numbers_.Encloses(s.footprint)) return;
       const bool forward = LexicographicallyLess(graph_.vertices[s.from], graph_.vertices[s.to]);
-      out[s.footprint] += forward == edge_forward ? 1 : -1;
+      AddTo(windings, s.footprint, forward == edge_forward ? -1 : 1);
     });
-    return out;
+    return windings;
   }
 
   template <class Visit>
@@ -149,11 +156,7 @@ class MapBuilder {
       ForEachEdge(face, [&](Circulator edge) {
         const Face across = edge->twin()->face();
         if (std::exchange(across->data().known, true)) return;
-        Windings windings = face->data().windings;
-        for (const auto& [outline, step] : StepOver(edge)) {
-          if ((windings[outline] -= step) == 0) windings.erase(outline);
-        }
-        across->data().windings = std::move(windings);
+        across->data().windings = StepOver(edge, face->data().windings);
         open.push_back(across);
       });
     }
@@ -161,7 +164,7 @@ class MapBuilder {
 
   bool IsFree(typename Arrangement::Face_const_handle f) const {
     const Windings& windings = f->data().windings;
-    return !f->is_unbounded() && (windings.empty() || numbers_.IsDivider(windings.begin()->first));
+    return !f->is_unbounded() && (windings.empty() || numbers_.IsDivider(windings.front().first));
   }
   // No wall's outline and no bridge runs here.
   bool IsVirtual(ConstHalfedge edge) const {

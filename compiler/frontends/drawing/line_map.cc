@@ -231,7 +231,8 @@ void LineMap::PlaceHoles(const std::vector<uint32_t>& loops, const std::vector<d
                    [&](uint32_t x, uint32_t y) { return vertices_[leftmost[x]].x() < vertices_[leftmost[y]].x(); });
   for (const uint32_t l : holes) {
     const Eigen::Vector2d p = vertices_[leftmost[l]];
-    const auto other = [&](uint32_t e) { return face_[2 * e] != l && face_[2 * e + 1] != l; };
+    // An edge within the loop that leaves this very vertex goes to the right, but by rounding the ray may meet its end.
+    const auto other = [&](uint32_t e) { return face_[2 * e] != l && face_[2 * e + 1] != l && edges_[e].a != leftmost[l] && edges_[e].b != leftmost[l]; };
     const std::optional<RayHit> hit = Cast(p, -Eigen::Vector2d::UnitX(), p.x() - box_.min().x() + 1.0, other);
     const uint32_t face = hit ? face_of_loop[face_[2 * hit->edge + (hit->on_left ? 0 : 1)]] : 0;
     face_of_loop[l] = face;

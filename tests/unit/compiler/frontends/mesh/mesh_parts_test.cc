@@ -50,7 +50,7 @@ TEST(MeshParts, OfTwoWallsInOnePlaceATriangleTakesThatOfItsOwnObject) {
 TEST(MeshParts, AFloorThatLiesOverAWallWithItsMiddleOnlyIsNoPartOfIt) {
   MeshScene scene;
   test::AddBox("slab", {-3, -3, -0.2}, {8, 3, 0}, scene);
-  std::vector<StoreyWalls> storeys = {{{0, 2.5}, {Piece(-3, 8, -1.2, 1.2, kPool)}, {}}};
+  std::vector<StoreyWalls> storeys = {{{0, 2.5}, {Piece(-2, 7, -1.2, 1.2, kPool)}, {}}};
   (void)AssignTriangles(scene.objects, kAlongX, storeys);
   EXPECT_EQ(Count(storeys[0], 0, 0), 0u);
 }

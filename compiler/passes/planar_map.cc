@@ -94,7 +94,8 @@ class MapBuilder {
     for (size_t i = 0; i < order.size(); ++i) {
       run_segments_.push_back(order[i].segment);
       if (i > 0 && order[i].left == order[i - 1].left && order[i].right == order[i - 1].right) continue;
-      curves.emplace_back(typename SegmentTraits::X_monotone_curve_2(points[order[i].left], points[order[i].right]), static_cast<uint32_t>(run_begin_.size()));
+      curves.emplace_back(typename SegmentTraits::X_monotone_curve_2(points[order[i].left], points[order[i].right]),
+                          static_cast<uint32_t>(run_begin_.size()));
       run_begin_.push_back(static_cast<uint32_t>(i));
     }
     run_begin_.push_back(static_cast<uint32_t>(order.size()));

@@ -71,7 +71,8 @@ Edges EdgesOf(const SnapGraph& graph) {
 }
 
 void ApplySplits(const Edges& edges, std::vector<Split>& splits, SnapGraph& graph) {
-  std::sort(splits.begin(), splits.end(), [](const Split& a, const Split& b) { return std::tie(a.edge, a.t, a.vertex) < std::tie(b.edge, b.t, b.vertex); });
+  std::sort(splits.begin(), splits.end(),
+            [](const Split& a, const Split& b) { return std::tie(a.edge, a.t, a.vertex) < std::tie(b.edge, b.t, b.vertex); });
   std::vector<size_t> first(edges.each.size() + 1, 0);
   for (const Split& split : splits) ++first[split.edge + 1];
   std::partial_sum(first.begin(), first.end(), first.begin());
@@ -166,9 +167,11 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 bool MeetAtEndsOnly(const SnapGraph& graph, const SnapSegment& s, const SnapSegment& r) {
   const auto point = [&graph](uint32_t v) { return Kernel::Point_2(graph.vertices[v].x(), graph.vertices[v].y()); };
   const bool from_is_common = s.from == r.from || s.from == r.to, to_is_common = s.to == r.from || s.to == r.to;
-  if (!from_is_common && !to_is_common) return !CGAL::do_intersect(Kernel::Segment_2(point(s.from), point(s.to)), Kernel::Segment_2(point(r.from), point(r.to)));
+  if (!from_is_common && !to_is_common)
+    return !CGAL::do_intersect(Kernel::Segment_2(point(s.from), point(s.to)), Kernel::Segment_2(point(r.from), point(r.to)));
   const uint32_t common = from_is_common ? s.from : s.to, a = from_is_common ? s.to : s.from, b = r.from == common ? r.to : r.from;
-  return CGAL::orientation(point(common), point(a), point(b)) != CGAL::COLLINEAR || CGAL::angle(point(a), point(common), point(b)) == CGAL::OBTUSE;
+  return CGAL::orientation(point(common), point(a), point(b)) != CGAL::COLLINEAR ||
+         CGAL::angle(point(a), point(common), point(b)) == CGAL::OBTUSE;
 }
 
 // Segments that cross away from their ends. True if anything changed.

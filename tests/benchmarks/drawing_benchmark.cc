@@ -1,9 +1,9 @@
 // Large drawings: DXF files that are nothing but walls are drawn and compiled, each in a process of its own; whole compile (open to written
 // .agraph) by the wall clock and by all threads' processor time, and peak memory.
 //   drawing_benchmark [SIZE_MB...]     sizes of the drawings (5 50); with -k FOLDER they and their A-Graphs are kept there
-// Two kinds of drawing: `doors` is one building of rooms that lead to each other, every wall drawn by the lines of its two sides; `boxes` is
-// closed outlines of single rooms, which share nothing. Goals for 50 MB of the first kind: under 10 s and 2 GB; what misses one is marked
-// with `!`.
+// Two kinds of drawing: `doors` is one building of rooms that lead to each other, every wall drawn by the lines of its two sides; `boxes`
+// (of 10 MB at most) is closed outlines of single rooms, which share nothing. Goals: 50 MB in 10 s and 2 GB, and as much by megabyte; what
+// misses one is marked with `!`.
 #include <fmt/core.h>
 #include <fmt/format.h>
 
@@ -29,13 +29,15 @@ using bench::kMegabyte;
 namespace fs = std::filesystem;
 
 constexpr double kMax_s_mb = 10.0 / 50, kMaxPeakRatio = 2000.0 / 50;  // by megabyte of drawing
-constexpr double kMaxBoxes_mb = 10;                                   // as dense, they hold three times as many walls
+constexpr double kMaxBoxes_mb = 10;                                   // they hold five times as many rooms
 constexpr double kWall_m = 0.2, kDoor_m = 0.9, kToDoor_m = 1.0;
 
 // As CAD programs write it, with handles and the classes of entities.
 class DrawingText {
  public:
-  DrawingText() { out_ = "  0\nSECTION\n  2\nHEADER\n  9\n$ACADVER\n  1\nAC1024\n  9\n$INSUNITS\n 70\n     6\n  0\nENDSEC\n  0\nSECTION\n  2\nENTITIES\n"; }
+  DrawingText() {
+    out_ = "  0\nSECTION\n  2\nHEADER\n  9\n$ACADVER\n  1\nAC1024\n  9\n$INSUNITS\n 70\n     6\n  0\nENDSEC\n  0\nSECTION\n  2\nENTITIES\n";
+  }
 
   void Line(double x0, double y0, double x1, double y1) {
     Entity("LINE", "A-WALL", "AcDbLine");
@@ -84,7 +86,8 @@ std::string Doors(size_t rooms) {
       const bool outer = j == 0 || j == rooms, open = j < rooms;
       for (const double side : {-half, half}) {
         const bool outside = outer && (side < 0) == (j == 0);
-        const double a = outside ? (i == 0 ? from : xs[i] + half) : xs[i] + half, b = outside ? (i + 1 == rooms ? end : xs[i + 1] + half) : to;
+        const double a = outside ? (i == 0 ? from : xs[i] + half) : xs[i] + half,
+                     b = outside ? (i + 1 == rooms ? end : xs[i + 1] + half) : to;
         const double y = ys[j] + side;
         if (!open) {
           out.Line(a, y, b, y);

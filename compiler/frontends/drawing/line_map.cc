@@ -88,7 +88,8 @@ class Splitter {
       const Segment& s = segments_[i];
       const Eigen::Vector2d a = Point(s.a), d = Point(s.b) - a;
       stops.emplace_back(0.0, s.a);
-      for (; cut != cuts_.end() && cut->segment == i; ++cut) stops.emplace_back(d.dot(Point(cut->vertex) - a) / d.squaredNorm(), cut->vertex);
+      for (; cut != cuts_.end() && cut->segment == i; ++cut)
+        stops.emplace_back(d.dot(Point(cut->vertex) - a) / d.squaredNorm(), cut->vertex);
       stops.emplace_back(1.0, s.b);
       std::sort(stops.begin(), stops.end());
       for (size_t k = 0; k + 1 < stops.size(); ++k) {
@@ -232,7 +233,9 @@ void LineMap::PlaceHoles(const std::vector<uint32_t>& loops, const std::vector<d
   for (const uint32_t l : holes) {
     const Eigen::Vector2d p = vertices_[leftmost[l]];
     // An edge within the loop that leaves this very vertex goes to the right, but by rounding the ray may meet its end.
-    const auto other = [&](uint32_t e) { return face_[2 * e] != l && face_[2 * e + 1] != l && edges_[e].a != leftmost[l] && edges_[e].b != leftmost[l]; };
+    const auto other = [&](uint32_t e) {
+      return face_[2 * e] != l && face_[2 * e + 1] != l && edges_[e].a != leftmost[l] && edges_[e].b != leftmost[l];
+    };
     const std::optional<RayHit> hit = Cast(p, -Eigen::Vector2d::UnitX(), p.x() - box_.min().x() + 1.0, other);
     const uint32_t face = hit ? face_of_loop[face_[2 * hit->edge + (hit->on_left ? 0 : 1)]] : 0;
     face_of_loop[l] = face;

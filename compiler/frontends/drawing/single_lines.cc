@@ -114,7 +114,8 @@ class Widener {
 
 }  // namespace
 
-WidenedLines WidenSingleLines(const LineMap& map, const std::vector<bool>& is_single, const std::vector<SourcedArc>& arcs, const MassOptions& options) {
+WidenedLines WidenSingleLines(const LineMap& map, const std::vector<bool>& is_single, const std::vector<SourcedArc>& arcs,
+                              const MassOptions& options) {
   return Widener(map, is_single, options).Run(arcs);
 }
 

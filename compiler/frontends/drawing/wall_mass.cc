@@ -134,7 +134,8 @@ class MassFinder {
     ExtendToLines(ends);
     JoinNearest(ends, options_.max_thickness_m, [&](const LooseEnd& a, const LooseEnd& b) {
       const Eigen::Vector2d d = b.at - a.at;
-      return a.out.dot(b.out) > kParallel && std::abs(d.dot(a.out)) <= kSquare * d.norm() && std::min(a.length_m, b.length_m) > 0.5 * d.norm();
+      return a.out.dot(b.out) > kParallel && std::abs(d.dot(a.out)) <= kSquare * d.norm() &&
+             std::min(a.length_m, b.length_m) > 0.5 * d.norm();
     });
     CapAtCorners(ends);
     JoinNearest(ends, options_.max_break_m, [](const LooseEnd&, const LooseEnd&) { return true; });
@@ -312,7 +313,8 @@ class MassFinder {
 
 std::string MassOptions::Check() const {
   if (!(join_m > 0 && join_m < 0.05)) return fmt::format("MassOptions.join_m = {}; must be in (0, 0.05)", join_m);
-  if (!(max_thickness_m > 0.1 && max_thickness_m < 3)) return fmt::format("MassOptions.max_thickness_m = {}; must be in (0.1, 3)", max_thickness_m);
+  if (!(max_thickness_m > 0.1 && max_thickness_m < 3))
+    return fmt::format("MassOptions.max_thickness_m = {}; must be in (0.1, 3)", max_thickness_m);
   if (!(single_line_thickness_m > 0.01 && single_line_thickness_m < 1))
     return fmt::format("MassOptions.single_line_thickness_m = {}; must be in (0.01, 1)", single_line_thickness_m);
   return {};

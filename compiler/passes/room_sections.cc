@@ -22,7 +22,7 @@ constexpr double kMinCell_m = 0.25;    // of the grid that finds points
 constexpr double kMinSlope = 0.1;      // horizontal part of the normal of a face that is no floor
 constexpr size_t kLeastCompared = 16;  // points of a room
 constexpr int kMaxCells = 256;         // along one side of a grid
-constexpr size_t kLeastTriangles = 4096;  // that one thread cuts
+constexpr size_t kLeastTriangles = 512;  // that are cut in one go
 
 bool IsFixed(const Element& e) {
   return e.material != Material::kGlass && e.kind != ElementKind::kDoor && e.kind != ElementKind::kFurniture && !e.doorway.valid();

@@ -120,7 +120,7 @@ TEST(AliasForecast, IsTheSameOnAnyNumberOfThreads) {
     if (i % 3 == 1) doors.push_back({true, i, 0, 0.3});
   }
   const AGraph plan = test::MakeGridPlan(xs, {0, 5, 9, 13, 17}, doors);
-  ASSERT_GT(plan.mesh.triangles.size(), 3u * 4096u) << "one thread cuts them all";
+  ASSERT_GT(plan.mesh.triangles.size(), 4u * 512u) << "all of them are cut in one go";
   const auto forecast = [&plan](size_t threads) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
     return WriteAGraph(Forecasted(plan));

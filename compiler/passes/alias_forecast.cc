@@ -46,11 +46,9 @@ class Forecast {
   // Only rooms that may have a twin, or that fall on themselves, need sections.
   std::vector<bool> Wanted() const {
     std::vector<bool> wanted(graph_.rooms.size(), false);
-    for (size_t a = 0; a < wanted.size(); ++a) {
-      for (size_t b = a + 1; b < wanted.size(); ++b) {
-        if (!(wanted[a] && wanted[b]) && shapes_.MayBeTwins(RoomId(a), RoomId(b))) wanted[a] = wanted[b] = true;
-      }
-      if (!wanted[a] && shapes_.MayBeTwins(RoomId(a), RoomId(a))) wanted[a] = shapes_.MotionsOnto(RoomId(a), RoomId(a)).size() > 1;
+    for (const RoomId room : shapes_.WithLikelyTwins()) wanted[room.index()] = true;
+    for (size_t r = 0; r < wanted.size(); ++r) {
+      if (!wanted[r] && shapes_.MayBeTwins(RoomId(r), RoomId(r))) wanted[r] = shapes_.MotionsOnto(RoomId(r), RoomId(r)).size() > 1;
     }
     return wanted;
   }

@@ -109,7 +109,7 @@ std::string CountsText(const AGraph& plan, const DeviationReport& report) {
   }
   const auto count = [&](SurfaceStatus status) { return std::count(gravest.begin(), gravest.end(), status); };
   const auto deviated = count(SurfaceStatus::kDeviated), missing = count(SurfaceStatus::kMissing);
-  std::string text = fmt::format(" {} of {} seen walls deviate", deviated, deviated + count(SurfaceStatus::kAsPlanned));
+  std::string text = fmt::format(" {} of {} seen walls {}", deviated, deviated + count(SurfaceStatus::kAsPlanned), deviated == 1 ? "deviates" : "deviate");
   if (missing > 0) text += fmt::format(", {} {} missing", missing, missing == 1 ? "is" : "are");
   return text + ".";
 }

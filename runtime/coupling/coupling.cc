@@ -12,6 +12,8 @@
 #include "runtime/coupling/sight_lines.h"
 #include "runtime/coupling/wall_frame.h"
 #include "runtime/coupling/wall_openings.h"
+#include "runtime/coupling/wall_patch.h"
+#include "runtime/coupling/wall_search.h"
 
 namespace plumb::runtime {
 namespace {
@@ -21,40 +23,17 @@ constexpr double kMinOverlap_m = 0.2;
 constexpr double kMinSizeShare = 0.5;      // a line behind another is the wall if it has this share of the front's area, ...
 constexpr double kHigher_m = 0.10;         // ... or is seen this much higher up
 constexpr double kFrontPenalty_nats = 8;   // for taking a surface with a wall visible behind it for the wall
-constexpr double kOpeningMargin_m = 0.12;  // frames reach this far beyond an opening's stated size
 constexpr double kMaxOpenRatio = 0.5;      // of a patch's cells: with more of them in openings it is leaves, panes and frames
 constexpr double kRecess_m = 0.02;         // leaves, panes and frames lie at least this far behind the wall's face
-constexpr double kOffPlan_m = 0.06;        // a wall further off its plan ...
-constexpr double kMaxPassedRatio = 0.2;    // ... must stop the lines of sight, all but so many
-constexpr size_t kMinPassed = 5;
+constexpr double kOffPlan_m = 0.06;        // a wall further off its plan must stop the lines of sight, ...
+constexpr double kOffPlan_rad = 0.087;
+constexpr double kMinExplained = 0.3;      // ... and is what most of the patch is of: what goes far beyond a wall is another
 constexpr double kInOpeningRatio = 0.6;    // of an observation's extent either way: it is of what fills the opening
 constexpr double kHalfExtentSigmas = 1.7;  // half the extent of evenly spread points
-constexpr double kMinSingleArea_m2 = 0.6;  // a smaller patch seen from one keyframe only is too rough to tell
 constexpr double kMaxThicker_m = 0.10;     // no wall is built thicker than planned by more: one of its faces is the front of furniture
+constexpr double kLeastExplained = 0.01;
+constexpr double kSameDirection_rad = 0.052, kDirectionSigmas = 2;  // patches of one line are parallel to this
 constexpr double kStepPerMetre = 0.01;     // lines are compared at a distance: allow for their direction errors
-
-// A wall patch of the map, in plan coordinates.
-struct Patch {
-  uint32_t map_surface;
-  Eigen::Vector2d start, end;
-  Eigen::Vector3d normal;
-  double z_min, z_max, z_shift, area;  // z_shift: from the map's heights to the plan's
-  const std::vector<Eigen::Vector2f>* cells;  // MapSurface::cells
-  [[nodiscard]] double length() const { return (end - start).norm(); }
-  [[nodiscard]] Eigen::Vector2d midpoint() const { return 0.5 * (start + end); }
-};
-
-// Share of the patch that is seen where its wall has no face. `along` runs along the wall; recessed patches may be frames.
-double OpenRatio(const Patch& patch, const std::vector<WallOpening>& openings, const Eigen::Vector2d& along, bool recessed) {
-  if (patch.cells->empty() || openings.empty()) return 0;
-  const double margin_m = recessed ? kOpeningMargin_m : 0.0;
-  const double from = along.dot(patch.start), per_metre = along.dot(patch.end - patch.start) / patch.length();
-  size_t open = 0;
-  for (const Eigen::Vector2f& cell : *patch.cells) {
-    open += InOpening(openings, along, from + per_metre * cell.x(), cell.y() + patch.z_shift, margin_m) ? 1 : 0;
-  }
-  return static_cast<double>(open) / static_cast<double>(patch.cells->size());
-}
 
 // The observations that lie in one of the wall's openings for the most part.
 std::vector<uint32_t> SeenInOpenings(const SGraph& map, const MapSurface& seen, const Surface& surface, const std::vector<WallOpening>& openings,
@@ -84,37 +63,11 @@ std::vector<uint32_t> SeenInOpenings(const SGraph& map, const MapSurface& seen, 
   return out;
 }
 
-// Would a wall in the patch's plane stand in the way of what was seen?
-bool IsSeenThrough(const Patch& patch, const Surface& surface, const std::vector<WallOpening>& openings, const SightLines& sight) {
-  const SightLines::Count count = sight.Meeting({patch.midpoint(), patch.normal.head<2>().normalized(), &surface, &openings});
-  return static_cast<double>(count.passed) > kMaxPassedRatio * static_cast<double>(count.ended + count.passed) && count.passed > kMinPassed;
-}
-
 struct Candidate {
   SurfaceId surface;
   int side = 0;  // 2 * wall id + (1 if it faces along the wall's reference normal): patches of one side lie on one line
   double offset_m = 0, yaw_rad = 0, cost_nats = 0;
 };
-
-std::vector<Patch> WallPatches(const SGraph& map, const Eigen::Isometry3d& T_plan_map) {
-  std::vector<Patch> patches;
-  for (size_t i = 0; i < map.surfaces.size(); ++i) {
-    const MapSurface& s = map.surfaces[i];
-    if (s.kind != SurfaceKind::kWall || s.observations.empty()) continue;
-    if (s.observations.size() < 2 && s.area_m2 < kMinSingleArea_m2) continue;
-    const Eigen::Vector3d start = T_plan_map * Eigen::Vector3d(s.start.x(), s.start.y(), s.z_min_m);
-    const Eigen::Vector3d end = T_plan_map * Eigen::Vector3d(s.end.x(), s.end.y(), s.z_max_m);
-    patches.push_back({static_cast<uint32_t>(i), start.head<2>(), end.head<2>(), T_plan_map.linear() * s.plane.n, start.z(), end.z(),
-                       T_plan_map.translation().z(), s.area_m2, &s.cells});
-  }
-  return patches;
-}
-
-// Overlap of [a0, a1] and [b0, b1] as a share of the shorter.
-double OverlapRatio(double a0, double a1, double b0, double b1) {
-  const double shorter = std::min(a1 - a0, b1 - b0);
-  return shorter > 0 ? (std::min(a1, b1) - std::max(a0, b0)) / shorter : 0.0;
-}
 
 std::optional<Candidate> Compare(const Patch& patch, SurfaceId id, const Surface& surface, const WallFrame& frame, const WallDeviation& known,
                                  const std::vector<WallOpening>& openings, const SightLines& sight, double max_offset_m, const CouplingOptions& options) {
@@ -143,10 +96,13 @@ std::optional<Candidate> Compare(const Patch& patch, SurfaceId id, const Surface
   const Eigen::Vector2d residual(c.offset_m - expected, yaw - known.yaw_rad);
   if (std::abs(residual.x()) > max_offset_m) return std::nullopt;
   if (OpenRatio(patch, openings, along, std::min(c.offset_m, residual.x()) < -kRecess_m) > kMaxOpenRatio) return std::nullopt;
-  if (std::abs(c.offset_m) > kOffPlan_m && IsSeenThrough(patch, surface, openings, sight)) return std::nullopt;
+  const double explained = ExplainedRatio(patch, surface);
+  const bool off_plan = std::abs(c.offset_m) > kOffPlan_m;
+  if ((off_plan || std::abs(yaw) > kOffPlan_rad) && explained < kMinExplained) return std::nullopt;
+  if (off_plan && IsSeenThrough(patch, surface, openings, sight)) return std::nullopt;
   const double yaw_sigma = kMapSigma_m / std::max(patch.length(), 0.3);
   const Eigen::Matrix2d covariance = Eigen::Vector2d(kMapSigma_m * kMapSigma_m, yaw_sigma * yaw_sigma).asDiagonal();
-  c.cost_nats = AssessMixture(residual, covariance, options).cost_nats - std::log((to - from) / std::max(patch.length(), to - from));
+  c.cost_nats = AssessMixture(residual, covariance, options).cost_nats - std::log(std::max(explained, kLeastExplained));
   return c;
 }
 
@@ -155,6 +111,12 @@ struct Line {
   std::vector<size_t> patches;  // the first is the largest and gives the line
   double area = 0, z_max = -1e300;
 };
+
+// Of one direction, as far as patches of their lengths can tell?
+bool IsParallel(const Patch& a, const Patch& b) {
+  const double turn = std::atan2(a.normal.x() * b.normal.y() - a.normal.y() * b.normal.x(), a.normal.head<2>().dot(b.normal.head<2>()));
+  return std::abs(turn) < kSameDirection_rad + kDirectionSigmas * kMapSigma_m * (1 / a.length() + 1 / b.length());
+}
 
 // Signed distance of b's middle from a's line, + in front of it (into the free space), beyond what their distance excuses.
 double Step(const Patch& a, const Patch& b, double max_step_m) {
@@ -211,8 +173,10 @@ class Assignment {
     std::stable_sort(members.begin(), members.end(), [&](size_t a, size_t b) { return patches_[a].area > patches_[b].area; });
     std::vector<Line> lines;
     for (size_t i : members) {
-      auto line = std::find_if(lines.begin(), lines.end(),
-                               [&](const Line& l) { return Step(patches_[l.patches.front()], patches_[i], options_.max_step_m) == 0; });
+      auto line = std::find_if(lines.begin(), lines.end(), [&](const Line& l) {
+        const Patch& first = patches_[l.patches.front()];
+        return Step(first, patches_[i], options_.max_step_m) == 0 && IsParallel(first, patches_[i]);
+      });
       if (line == lines.end()) line = lines.emplace(lines.end());
       line->patches.push_back(i);
       line->area += patches_[i].area;
@@ -286,10 +250,43 @@ void DropFurnitureFronts(const std::vector<Patch>& patches, std::vector<std::vec
   }
 }
 
+// Per patch its candidates, the chosen one first.
+std::vector<std::vector<Candidate>> Assigned(const AGraph& plan, const std::vector<WallFrame>& frames, const std::vector<Patch>& patches,
+                                             const std::vector<std::vector<WallOpening>>& openings, const SightLines& sight,
+                                             const std::vector<WallDeviation>& known, double max_offset_m, const CouplingOptions& options) {
+  std::vector<std::vector<Candidate>> candidates(patches.size());
+  for (size_t i = 0; i < patches.size(); ++i) {
+    for (size_t j = 0; j < plan.surfaces.size(); ++j) {
+      const Surface& surface = plan.surfaces[j];
+      if (!surface.wall.valid() || !IsFace(frames[surface.wall.index()], surface)) continue;
+      const size_t wall = surface.wall.index();
+      const WallDeviation deviation = wall < known.size() ? known[wall] : WallDeviation{};
+      if (auto c = Compare(patches[i], SurfaceId(j), surface, frames[wall], deviation, openings[wall], sight, max_offset_m, options)) candidates[i].push_back(*c);
+    }
+  }
+  return Assignment(patches, std::move(candidates), options).Solve();
+}
+
+std::vector<FarWall> FarWalls(const AGraph& plan, const std::vector<WallFrame>& frames, const std::vector<Patch>& patches,
+                              const std::vector<std::vector<Candidate>>& assigned, const std::vector<std::vector<WallOpening>>& openings,
+                              const SightLines& sight, const CouplingOptions& options) {
+  std::vector<Patch> unmatched;
+  std::vector<bool> matched(plan.walls.size(), false);
+  for (size_t i = 0; i < patches.size(); ++i) {
+    if (assigned[i].empty()) {
+      unmatched.push_back(patches[i]);
+    } else {
+      matched[plan.surfaces[assigned[i].front().surface.index()].wall.index()] = true;
+    }
+  }
+  return FindFarWalls(plan, frames, unmatched, matched, openings, sight, options);
+}
+
 }  // namespace
 
 std::string CouplingOptions::Check() const {
   const std::pair<const char*, double> positive[] = {{"max_offset_m", max_offset_m}, {"planar_max_offset_m", planar_max_offset_m}, {"max_yaw_rad", max_yaw_rad},
+      {"far_offset_m", far_offset_m}, {"far_yaw_rad", far_yaw_rad},
       {"max_level_offset_m", max_level_offset_m}, {"max_step_m", max_step_m}, {"offset_tau0_m", offset_tau0_m},
       {"offset_tau1_m", offset_tau1_m}, {"yaw_tau0_rad", yaw_tau0_rad}, {"yaw_tau1_rad", yaw_tau1_rad}};
   for (const auto& [name, value] : positive) {
@@ -312,18 +309,15 @@ std::vector<Match> MatchSurfaces(const SGraph& map, const AGraph& plan, const Ei
   const std::vector<std::vector<WallOpening>> openings = OpeningsOfWalls(plan);
   const SightLines sight(map, T_plan_map);
   const double max_offset_m = map.planar ? options.planar_max_offset_m : options.max_offset_m;
-  std::vector<std::vector<Candidate>> candidates(patches.size());
-  for (size_t i = 0; i < patches.size(); ++i) {
-    for (size_t j = 0; j < plan.surfaces.size(); ++j) {
-      const Surface& surface = plan.surfaces[j];
-      if (!surface.wall.valid() || !IsFace(frames[surface.wall.index()], surface)) continue;
-      const WallDeviation deviation = surface.wall.index() < known.size() ? known[surface.wall.index()] : WallDeviation{};
-      const size_t wall = surface.wall.index();
-      if (auto c = Compare(patches[i], SurfaceId(j), surface, frames[wall], deviation, openings[wall], sight, max_offset_m, options)) candidates[i].push_back(*c);
-    }
+  std::vector<std::vector<Candidate>> assigned = Assigned(plan, frames, patches, openings, sight, known, max_offset_m, options);
+  if (map.planar) {
+    DropFurnitureFronts(patches, assigned);
+  } else if (const std::vector<FarWall> far = FarWalls(plan, frames, patches, assigned, openings, sight, options); !far.empty()) {
+    std::vector<WallDeviation> supposed = known;
+    supposed.resize(plan.walls.size());
+    for (const FarWall& w : far) supposed[w.wall.index()] = w.deviation;
+    assigned = Assigned(plan, frames, patches, openings, sight, supposed, max_offset_m, options);
   }
-  std::vector<std::vector<Candidate>> assigned = Assignment(patches, std::move(candidates), options).Solve();
-  if (map.planar) DropFurnitureFronts(patches, assigned);
 
   std::vector<Match> matches = MatchLevels(map, plan, T_plan_map, options);
   for (size_t i = 0; i < patches.size(); ++i) {

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
+#include <utility>
 
 #include "runtime/coupling/level_matching.h"
 #include "runtime/coupling/mixture.h"
@@ -27,40 +29,51 @@ constexpr double kMaxOpenRatio = 0.5;      // of a patch's cells: with more of t
 constexpr double kRecess_m = 0.02;         // leaves, panes and frames lie at least this far behind the wall's face
 constexpr double kOffPlan_m = 0.06;        // a wall further off its plan must stop the lines of sight, ...
 constexpr double kOffPlan_rad = 0.087;
-constexpr double kMinExplained = 0.3;      // ... and is what most of the patch is of: what goes far beyond a wall is another
+constexpr double kMinExplained = 0.4;      // ... and is what most of the patch is of: what goes far beyond a wall is another
 constexpr double kInOpeningRatio = 0.6;    // of an observation's extent either way: it is of what fills the opening
 constexpr double kHalfExtentSigmas = 1.7;  // half the extent of evenly spread points
 constexpr double kMaxThicker_m = 0.10;     // no wall is built thicker than planned by more: one of its faces is the front of furniture
+constexpr double kMinExplainedHeight = 0.25;
 constexpr double kLeastExplained = 0.01;
+constexpr double kSameNormal_cos = 0.999, kMinShared_m2 = 0.5, kMaxFlush_m = 0.2, kMinSharedRatio = 0.5;  // of walls that one patch runs along
 constexpr double kSameDirection_rad = 0.052, kDirectionSigmas = 2;  // patches of one line are parallel to this
 constexpr double kStepPerMetre = 0.01;     // lines are compared at a distance: allow for their direction errors
 
-// The observations that lie in one of the wall's openings for the most part.
-std::vector<uint32_t> SeenInOpenings(const SGraph& map, const MapSurface& seen, const Surface& surface, const std::vector<WallOpening>& openings,
-                                     const Eigen::Isometry3d& T_plan_map) {
-  std::vector<uint32_t> out;
-  const Eigen::Vector2d along = (surface.end - surface.start).normalized();
+// What one view saw of a face, in the face's coordinates: along it from its start, and up.
+struct ViewExtent {
+  Eigen::Vector2d middle, reach;  // to both sides
+};
+
+std::vector<ViewExtent> ExtentsOnFace(const SGraph& map, const MapSurface& seen, const Surface& surface, const Eigen::Isometry3d& T_plan_map) {
   Eigen::Matrix<double, 4, 2> axes = Eigen::Matrix<double, 4, 2>::Zero();  // along and up, of homogeneous points
-  axes.col(0).head<2>() = along;
+  axes.col(0).head<2>() = (surface.end - surface.start).normalized();
   axes(2, 1) = 1;
-  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(kOpeningMargin_m);
   // Sums of squares of a georeferenced plan's coordinates would leave nothing of the variance.
   const Eigen::Translation3d T_face_plan(-surface.start.x(), -surface.start.y(), 0);
-  for (uint32_t i = 0; i < seen.observations.size(); ++i) {
-    const Observation& o = seen.observations[i];
+  std::vector<ViewExtent> out;
+  for (const Observation& o : seen.observations) {
     const PlaneStats stats = o.stats.Transformed(T_face_plan * T_plan_map * map.keyframes[o.keyframe].T_map_kf);
     const Eigen::Vector2d middle = axes.transpose() * stats.C.col(3) / stats.count();
     const Eigen::Vector2d variance = (axes.transpose() * stats.C * axes).diagonal() / stats.count() - middle.cwiseAbs2();
-    const Eigen::Vector2d reach = kHalfExtentSigmas * variance.cwiseMax(0.0).cwiseSqrt();
-    const bool inside = std::any_of(openings.begin(), openings.end(), [&](const WallOpening& w) {
-      const double u = along.dot(w.middle - surface.start);
-      const Eigen::Vector2d lo(u - 0.5 * w.width_m, w.z_min_m), hi(u + 0.5 * w.width_m, w.z_max_m);
-      const Eigen::Vector2d covered = (middle + reach).cwiseMin(hi + margin) - (middle - reach).cwiseMax(lo - margin);
-      return (covered.array() >= kInOpeningRatio * 2 * reach.array()).all();
-    });
-    if (inside) out.push_back(i);
+    out.push_back({middle, kHalfExtentSigmas * variance.cwiseMax(0.0).cwiseSqrt()});
   }
   return out;
+}
+
+// Does the view lie in one of the wall's openings for the most part?
+bool IsInOpening(const ViewExtent& view, const Surface& surface, const std::vector<WallOpening>& openings) {
+  const Eigen::Vector2d along = (surface.end - surface.start).normalized(), margin = Eigen::Vector2d::Constant(kOpeningMargin_m);
+  return std::any_of(openings.begin(), openings.end(), [&](const WallOpening& w) {
+    const double u = along.dot(w.middle - surface.start);
+    const Eigen::Vector2d lo(u - 0.5 * w.width_m, w.z_min_m), hi(u + 0.5 * w.width_m, w.z_max_m);
+    const Eigen::Vector2d covered = (view.middle + view.reach).cwiseMin(hi + margin) - (view.middle - view.reach).cwiseMax(lo - margin);
+    return (covered.array() >= kInOpeningRatio * 2 * view.reach.array()).all();
+  });
+}
+
+// Length of the face that the view saw.
+double Seen_m(const ViewExtent& view, const Surface& surface) {
+  return std::min(surface.length_m(), view.middle.x() + view.reach.x()) - std::max(0.0, view.middle.x() - view.reach.x());
 }
 
 struct Candidate {
@@ -68,6 +81,12 @@ struct Candidate {
   int side = 0;  // 2 * wall id + (1 if it faces along the wall's reference normal): patches of one side lie on one line
   double offset_m = 0, yaw_rad = 0, cost_nats = 0;
 };
+
+// Is what the patch is of the face for the most part, and no skirting or ledge on it?
+bool IsMostOf(const Surface& surface, const Patch& patch, double explained) {
+  const double height_m = std::min(patch.z_max, surface.z_max_m) - std::max(patch.z_min, surface.z_min_m);
+  return explained >= kMinExplained && height_m >= kMinExplainedHeight * (patch.z_max - patch.z_min);
+}
 
 std::optional<Candidate> Compare(const Patch& patch, SurfaceId id, const Surface& surface, const WallFrame& frame, const WallDeviation& known,
                                  const std::vector<WallOpening>& openings, const SightLines& sight, double max_offset_m, const CouplingOptions& options) {
@@ -98,7 +117,7 @@ std::optional<Candidate> Compare(const Patch& patch, SurfaceId id, const Surface
   if (OpenRatio(patch, openings, along, std::min(c.offset_m, residual.x()) < -kRecess_m) > kMaxOpenRatio) return std::nullopt;
   const double explained = ExplainedRatio(patch, surface);
   const bool off_plan = std::abs(c.offset_m) > kOffPlan_m;
-  if ((off_plan || std::abs(yaw) > kOffPlan_rad) && explained < kMinExplained) return std::nullopt;
+  if ((off_plan || std::abs(yaw) > kOffPlan_rad) && !IsMostOf(surface, patch, explained)) return std::nullopt;
   if (off_plan && IsSeenThrough(patch, surface, openings, sight)) return std::nullopt;
   const double yaw_sigma = kMapSigma_m / std::max(patch.length(), 0.3);
   const Eigen::Matrix2d covariance = Eigen::Vector2d(kMapSigma_m * kMapSigma_m, yaw_sigma * yaw_sigma).asDiagonal();
@@ -282,6 +301,52 @@ std::vector<FarWall> FarWalls(const AGraph& plan, const std::vector<WallFrame>& 
   return FindFarWalls(plan, frames, unmatched, matched, openings, sight, options);
 }
 
+// The chosen face, and those of other walls that the patch goes on along and that nothing else was matched to. `sides` gets theirs.
+std::vector<Candidate> FacesAlong(const AGraph& plan, const Patch& patch, const std::vector<Candidate>& candidates, std::set<int>& sides) {
+  std::vector<Candidate> faces{candidates.front()};
+  const auto beside = [&](const Surface& a, const Surface& b) {
+    const Eigen::Vector2d along = (a.end - a.start).normalized();
+    const double from = along.dot(b.start - a.start), to = along.dot(b.end - a.start);
+    return a.normal.dot(b.normal) > kSameNormal_cos && std::min(a.length_m(), std::max(from, to)) - std::max(0.0, std::min(from, to)) < kMinOverlap_m;
+  };
+  for (const Candidate& c : candidates) {
+    const Surface& surface = plan.surfaces[c.surface.index()];
+    // What stands further in front of a wall, flush with the next, is as likely to be furniture in a recess.
+    if (sides.contains(c.side) || c.offset_m > kMaxFlush_m || ExplainedRatio(patch, surface) * patch.area < kMinShared_m2) continue;
+    const double a = (surface.end - surface.start).dot(patch.start - surface.start) / surface.length_m();
+    const double b = (surface.end - surface.start).dot(patch.end - surface.start) / surface.length_m();
+    if (std::min(surface.length_m(), std::max(a, b)) - std::max(0.0, std::min(a, b)) < kMinSharedRatio * surface.length_m()) continue;
+    if (!std::all_of(faces.begin(), faces.end(), [&](const Candidate& f) { return beside(plan.surfaces[f.surface.index()], surface); })) continue;
+    faces.push_back(c);
+    sides.insert(c.side);
+  }
+  return faces;
+}
+
+// One match per face; each view counts for the face of which it saw most.
+void AddMatches(const SGraph& map, const AGraph& plan, const Patch& patch, const std::vector<Candidate>& faces,
+                const std::vector<std::vector<WallOpening>>& openings, const Eigen::Isometry3d& T_plan_map, std::vector<Match>& matches) {
+  const MapSurface& seen = map.surfaces[patch.map_surface];
+  std::vector<std::vector<ViewExtent>> views;
+  for (const Candidate& c : faces) views.push_back(ExtentsOnFace(map, seen, plan.surfaces[c.surface.index()], T_plan_map));
+  const auto face_of = [&](size_t view) {
+    size_t best = 0;
+    for (size_t k = 1; k < faces.size(); ++k) {
+      if (Seen_m(views[k][view], plan.surfaces[faces[k].surface.index()]) > Seen_m(views[best][view], plan.surfaces[faces[best].surface.index()])) best = k;
+    }
+    return best;
+  };
+  for (size_t k = 0; k < faces.size(); ++k) {
+    const Surface& surface = plan.surfaces[faces[k].surface.index()];
+    std::vector<uint32_t> mistaken;
+    for (uint32_t i = 0; i < seen.observations.size(); ++i) {
+      if (face_of(i) != k || IsInOpening(views[k][i], surface, openings[surface.wall.index()])) mistaken.push_back(i);
+    }
+    if (mistaken.size() == seen.observations.size()) continue;
+    matches.push_back({patch.map_surface, faces[k].surface, RoomId(), faces[k].offset_m, faces[k].yaw_rad, std::move(mistaken)});
+  }
+}
+
 }  // namespace
 
 std::string CouplingOptions::Check() const {
@@ -320,16 +385,16 @@ std::vector<Match> MatchSurfaces(const SGraph& map, const AGraph& plan, const Ei
   }
 
   std::vector<Match> matches = MatchLevels(map, plan, T_plan_map, options);
+  std::set<int> sides;
+  for (const auto& list : assigned) {
+    if (!list.empty()) sides.insert(list.front().side);
+  }
   for (size_t i = 0; i < patches.size(); ++i) {
     if (assigned[i].empty()) continue;
-    const Candidate& c = assigned[i].front();
-    const Surface& surface = plan.surfaces[c.surface.index()];
-    const MapSurface& seen = map.surfaces[patches[i].map_surface];
-    std::vector<uint32_t> mistaken = SeenInOpenings(map, seen, surface, openings[surface.wall.index()], T_plan_map);
-    if (mistaken.size() == seen.observations.size()) continue;
-    matches.push_back({patches[i].map_surface, c.surface, RoomId(), c.offset_m, c.yaw_rad, std::move(mistaken)});
+    const std::vector<Candidate> faces = map.planar ? std::vector{assigned[i].front()} : FacesAlong(plan, patches[i], assigned[i], sides);
+    AddMatches(map, plan, patches[i], faces, openings, T_plan_map, matches);
   }
-  std::sort(matches.begin(), matches.end(), [](const Match& a, const Match& b) { return a.map_surface < b.map_surface; });
+  std::sort(matches.begin(), matches.end(), [](const Match& a, const Match& b) { return std::pair(a.map_surface, a.plan_surface.value) < std::pair(b.map_surface, b.plan_surface.value); });
   return matches;
 }
 

@@ -9,7 +9,7 @@ namespace {
 constexpr double kMaxPassedRatio = 0.2;    // a wall stops all lines of sight but so many ...
 constexpr size_t kMinPassed = 5;           // ... and so few
 constexpr double kMinSingleArea_m2 = 0.6;  // a smaller patch seen from one keyframe only is too rough to tell
-constexpr double kExplainMargin_m = 0.2;   // about a face's edges
+constexpr double kExplainMargin_m = 0.2, kExplainMarginRatio = 0.25;  // about a face's edges, and of its length
 
 }  // namespace
 
@@ -46,15 +46,13 @@ double OpenRatio(const Patch& patch, const std::vector<WallOpening>& openings, c
 double ExplainedRatio(const Patch& patch, const Surface& surface) {
   const Eigen::Vector2d along = (surface.end - surface.start).normalized();
   const double from = along.dot(patch.start - surface.start), per_metre = along.dot(patch.end - patch.start) / patch.length();
-  const auto explains = [&](double u, double z) {
-    return u > -kExplainMargin_m && u < surface.length_m() + kExplainMargin_m && z > surface.z_min_m - kExplainMargin_m && z < surface.z_max_m + kExplainMargin_m;
-  };
+  const double margin_m = std::min(kExplainMargin_m, kExplainMarginRatio * surface.length_m());
   if (patch.cells->empty()) {
     const double to = from + per_metre * patch.length();
     return std::max(0.0, std::min(surface.length_m(), std::max(from, to)) - std::max(0.0, std::min(from, to))) / patch.length();
   }
   const auto num = std::count_if(patch.cells->begin(), patch.cells->end(),
-                                 [&](const Eigen::Vector2f& c) { return explains(from + per_metre * c.x(), c.y() + patch.z_shift); });
+                                 [&](const Eigen::Vector2f& c) { return std::abs(from + per_metre * c.x() - 0.5 * surface.length_m()) < 0.5 * surface.length_m() + margin_m; });
   return static_cast<double>(num) / static_cast<double>(patch.cells->size());
 }
 

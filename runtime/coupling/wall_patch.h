@@ -35,7 +35,7 @@ struct Patch {
 // Share of the patch that is seen where its wall has no face. `along` runs along the wall; recessed patches may be frames.
 [[nodiscard]] double OpenRatio(const Patch& patch, const std::vector<WallOpening>& openings, const Eigen::Vector2d& along, bool recessed);
 
-// Share of the patch that lies, as seen along the face's normal, where the plan has the face.
+// Share of the patch that lies beside the face, along the wall: at any height, as many plans do not know theirs.
 [[nodiscard]] double ExplainedRatio(const Patch& patch, const Surface& surface);
 
 // Would a wall in the patch's plane stand in the way of what was seen?

@@ -59,7 +59,9 @@ std::vector<SurfaceStatus> WallStatuses(const JointResult& estimate, const Devia
     const WallEstimate& w = estimate.walls[observed[k]];
     const bool large = std::abs(w.deviation.offset_m) >= options.min_offset_m || std::abs(w.deviation.yaw_rad) >= options.min_yaw_rad;
     const bool deviated = rejected[k] && large && w.p_deviated >= options.min_p_deviated;
-    const bool tested = MinimalDetectable_m(TestVariance_m2(w, Eigen::Vector2d::UnitX(), options)) <= options.max_mdb_m;
+    const double variance_m2 = TestVariance_m2(w, Eigen::Vector2d::UnitX(), options);
+    const bool tested = MinimalDetectable_m(variance_m2) <= options.max_mdb_m &&
+                        std::abs(w.evidence.measured.x()) + 2 * std::sqrt(variance_m2) <= options.max_undecided_m;
     statuses[observed[k]] = deviated ? SurfaceStatus::kDeviated : tested ? SurfaceStatus::kAsPlanned : SurfaceStatus::kUnobserved;
   }
   return statuses;
@@ -132,7 +134,8 @@ std::string DeviationOptions::Check() const {
   }
   if (!(min_p_deviated >= 0 && min_p_deviated <= 1)) return fmt::format("DeviationOptions.min_p_deviated = {}; must be in [0, 1]", min_p_deviated);
   const std::pair<const char*, double> magnitudes[] = {{"tolerance_offset_m", tolerance_offset_m}, {"tolerance_yaw_rad", tolerance_yaw_rad},
-      {"min_offset_m", min_offset_m}, {"min_yaw_rad", min_yaw_rad}, {"min_observed_m2", min_observed_m2}, {"max_mdb_m", max_mdb_m}};
+      {"min_offset_m", min_offset_m}, {"min_yaw_rad", min_yaw_rad}, {"min_observed_m2", min_observed_m2}, {"max_mdb_m", max_mdb_m},
+      {"max_undecided_m", max_undecided_m}};
   for (const auto& [name, value] : magnitudes) {
     if (!(value >= 0)) return fmt::format("DeviationOptions.{} = {}; must be >= 0", name, value);
   }

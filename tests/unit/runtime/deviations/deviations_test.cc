@@ -128,6 +128,14 @@ TEST(AssessDeviations, WhatCouldNotHaveBeenFoundIsUnobservedAndNotAsPlanned) {
   EXPECT_EQ(AssessDeviations(house, estimate).surfaces[9].status, SurfaceStatus::kUnobserved);
 }
 
+TEST(AssessDeviations, WhatTheDataLeaveFarOffIsUnobservedHoweverUnlikelyBeforehand) {
+  const AGraph house = test::MakeHouse();
+  JointResult estimate = EstimateOfEastWall(house, {}, Eigen::Vector2d(0.026 * 0.026, 1e-6).asDiagonal(), 60);
+  EXPECT_EQ(AssessDeviations(house, estimate).surfaces[9].status, SurfaceStatus::kAsPlanned);
+  estimate.walls[0].evidence.measured = {-0.055, 0};
+  EXPECT_EQ(AssessDeviations(house, estimate).surfaces[9].status, SurfaceStatus::kUnobserved);
+}
+
 TEST(DeviationsToJson, HasTheAgreedForm) {
   const AGraph house = test::MakeHouse();
   test::DriveOptions options = Drive(3);

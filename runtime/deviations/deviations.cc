@@ -58,10 +58,13 @@ std::vector<SurfaceStatus> WallStatuses(const JointResult& estimate, const Devia
   for (size_t k = 0; k < observed.size(); ++k) {
     const WallEstimate& w = estimate.walls[observed[k]];
     const bool large = std::abs(w.deviation.offset_m) >= options.min_offset_m || std::abs(w.deviation.yaw_rad) >= options.min_yaw_rad;
-    const bool deviated = rejected[k] && large && w.p_deviated >= options.min_p_deviated;
-    const double variance_m2 = TestVariance_m2(w, Eigen::Vector2d::UnitX(), options);
-    const bool tested = MinimalDetectable_m(variance_m2) <= options.max_mdb_m &&
-                        std::abs(w.evidence.measured.x()) + 2 * std::sqrt(variance_m2) <= options.max_undecided_m;
+    const double variance_m2 = TestVariance_m2(w, Eigen::Vector2d::UnitX(), options), two_sigma_m = 2 * std::sqrt(variance_m2);
+    const double measured_m = std::abs(w.evidence.measured.x());
+    const bool testable = MinimalDetectable_m(variance_m2) <= options.max_mdb_m;
+    // A turn read off a short piece of a wall that may stand anywhere is no finding.
+    const bool placed = testable || measured_m > two_sigma_m;
+    const bool deviated = rejected[k] && large && w.p_deviated >= options.min_p_deviated && placed;
+    const bool tested = testable && measured_m + two_sigma_m <= options.max_undecided_m;
     statuses[observed[k]] = deviated ? SurfaceStatus::kDeviated : tested ? SurfaceStatus::kAsPlanned : SurfaceStatus::kUnobserved;
   }
   return statuses;

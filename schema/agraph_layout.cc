@@ -86,7 +86,8 @@ MeshPlace FindMesh(const SparseFile& file) {
 bool ReadAllBut(const MeshPlace& mesh, SparseFile& file) {
   const Bytes whole = file.bytes();
   const auto read = [&](Bytes piece) { return file.Read(static_cast<size_t>(piece.data() - whole.data()), piece.size()); };
-  const auto around = Around(whole, {whole.subspan(mesh.vertices, mesh.vertices_size), whole.subspan(mesh.triangles, mesh.triangles_size), Bytes()});
+  const auto around =
+      Around(whole, {whole.subspan(mesh.vertices, mesh.vertices_size), whole.subspan(mesh.triangles, mesh.triangles_size), Bytes()});
   return std::all_of(around.begin(), around.end(), read);
 }
 
@@ -102,7 +103,8 @@ uint64_t FileChecksum(Bytes file, size_t field) {
 
 uint64_t StructureChecksum(const fb::AGraph& graph, Bytes file, size_t field) {
   const fb::Mesh* mesh = graph.mesh();
-  const Bytes vertices = mesh == nullptr ? Bytes() : BytesOf(mesh->vertices()), triangles = mesh == nullptr ? Bytes() : BytesOf(mesh->triangles());
+  const Bytes vertices = mesh == nullptr ? Bytes() : BytesOf(mesh->vertices()),
+              triangles = mesh == nullptr ? Bytes() : BytesOf(mesh->triangles());
   return Checksum(Around(file, {file.subspan(field, sizeof(uint64_t)), vertices, triangles}), file.size());
 }
 

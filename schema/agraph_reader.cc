@@ -66,7 +66,9 @@ void ReadAll(const flatbuffers::Vector<flatbuffers::Offset<Table>>* items, std::
 }
 
 void ReadStructure(const fb::AGraph& in, Copier& copy, AGraph& out) {
-  ReadAll(in.storeys(), out.storeys, [&](const fb::Storey& s) { return Storey{copy.Str(s.guid()), copy.Str(s.name()), s.elevation_m(), s.height_m()}; });
+  ReadAll(in.storeys(), out.storeys, [&](const fb::Storey& s) {
+    return Storey{copy.Str(s.guid()), copy.Str(s.name()), s.elevation_m(), s.height_m()};
+  });
   ReadAll(in.walls(), out.walls, [&](const fb::Wall& w) {
     return Wall{copy.Str(w.guid()), copy.Str(w.name()),    copy.Str(w.type()), StoreyId(w.storey()), Vec(w.axis_start()), Vec(w.axis_end()),
                 w.thickness_m(), w.z_min_m(), w.z_max_m(), w.external()};
@@ -96,12 +98,12 @@ void ReadStructure(const fb::AGraph& in, Copier& copy, AGraph& out) {
 
 void ReadOpenings(const fb::AGraph& in, Copier& copy, AGraph& out) {
   ReadAll(in.doorways(), out.doorways, [&](const fb::Doorway& d) {
-    return Doorway{copy.Str(d.guid()),     copy.Str(d.name()),    StoreyId(d.storey()), WallId(d.wall()), RoomId(d.room_a()), RoomId(d.room_b()),
-                   Vec(d.position()), d.yaw_rad(), d.width_m(),          d.height_m(),     d.has_leaf()};
+    return Doorway{copy.Str(d.guid()), copy.Str(d.name()), StoreyId(d.storey()), WallId(d.wall()), RoomId(d.room_a()), RoomId(d.room_b()),
+                   Vec(d.position()),  d.yaw_rad(),        d.width_m(),          d.height_m(),     d.has_leaf()};
   });
   ReadAll(in.windows(), out.windows, [&](const fb::Window& w) {
-    return Window{copy.Str(w.guid()), copy.Str(w.name()), StoreyId(w.storey()), WallId(w.wall()), Vec(w.position()), w.yaw_rad(), w.width_m(),
-                  w.height_m()};
+    return Window{copy.Str(w.guid()), copy.Str(w.name()), StoreyId(w.storey()), WallId(w.wall()),
+                  Vec(w.position()),  w.yaw_rad(),        w.width_m(),          w.height_m()};
   });
   ReadAll(in.columns(), out.columns, [&](const fb::Column& c) {
     return Column{copy.Str(c.guid()), copy.Str(c.name()), StoreyId(c.storey()), copy.ToRing(c.outline()), c.z_min_m(), c.z_max_m()};
@@ -207,8 +209,9 @@ Expected<Mesh> ReadMesh(const uint8_t* file, size_t elements, const CopyBytes& c
 Expected<void> Verify(std::span<const uint8_t> bytes) {
   if (bytes.size() < 8 || !flatbuffers::BufferHasIdentifier(bytes.data(), fb::AGraphIdentifier())) {
     const bool is_step = std::string_view(reinterpret_cast<const char*>(bytes.data()), bytes.size()).starts_with("ISO-10303-21");
-    return Fail(ErrorCode::kNotAnAGraph, is_step ? "an IFC plan, not yet an A-Graph: `plumb compile` makes one of it"
-                                                 : "not an A-Graph (the file identifier `PLAG` is missing); of a plan, `plumb compile` makes one");
+    return Fail(ErrorCode::kNotAnAGraph,
+                is_step ? "an IFC plan, not yet an A-Graph: `plumb compile` makes one of it"
+                        : "not an A-Graph (the file identifier `PLAG` is missing); of a plan, `plumb compile` makes one");
   }
   // Limits bound the verifier's work; the table limit grows with the file since a table takes at least 8 bytes.
   flatbuffers::Verifier verifier(bytes.data(), bytes.size(), 64, static_cast<flatbuffers::uoffset_t>(bytes.size() / 8 + 1));
@@ -218,7 +221,8 @@ Expected<void> Verify(std::span<const uint8_t> bytes) {
     return Fail(ErrorCode::kAGraphTooNew, fmt::format("the A-Graph has schema {}.{}; this version reads up to {}.x", in.schema_major(),
                                                       in.schema_minor(), kSchemaMajor));
   }
-  if (!ChecksumHolds(in, bytes)) return tl::unexpected<Error>(Damaged("its checksum does not hold: bytes were changed since it was written"));
+  if (!ChecksumHolds(in, bytes))
+    return tl::unexpected<Error>(Damaged("its checksum does not hold: bytes were changed since it was written"));
   if (in.schema_major() == 0) return tl::unexpected<Error>(Damaged("it has no schema version"));
   return {};
 }

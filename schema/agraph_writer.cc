@@ -225,8 +225,8 @@ Bytes Pack(const AGraph& g, Builder& b) {
   const auto look_alikes = PackLookAlikes(b, g);
   const fb::Vec3 origin = Pack(g.origin);
   const auto true_north = g.true_north_rad ? flatbuffers::Optional<double>(*g.true_north_rad) : flatbuffers::nullopt;
-  b.Finish(fb::CreateAGraph(b, kSchemaMajor, kSchemaMinor, tool_version, source_path, source_format, source_sha256, options, &origin, storeys,
-                            walls, surfaces, rooms, doorways, windows, columns, factors, elements, mesh, aliases, diagnostics,
+  b.Finish(fb::CreateAGraph(b, kSchemaMajor, kSchemaMinor, tool_version, source_path, source_format, source_sha256, options, &origin,
+                            storeys, walls, surfaces, rooms, doorways, windows, columns, factors, elements, mesh, aliases, diagnostics,
                             open_boundaries, look_alikes, true_north, kNotYet),
            fb::AGraphIdentifier());
   fb::AGraph* graph = fb::GetMutableAGraph(b.GetBufferPointer());

@@ -45,7 +45,8 @@ class SparseFile {
   std::span<uint8_t> bytes_;
 };
 
-// Writes to a temporary file in the same folder, then renames it over `path` (over what it leads to, if it is a link); devices, pipes and open files
+// Writes to a temporary file in the same folder, then renames it over `path` (over what it leads to, if it is a link); devices, pipes and
+// open files
 // (/dev/stdout) are written to as they are.
 // Errors: kFileUnwritable.
 [[nodiscard]] Expected<void> WriteFileAtomically(const std::string& path, std::span<const uint8_t> bytes);

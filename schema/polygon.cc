@@ -1,6 +1,7 @@
 #include "schema/polygon.h"
 
 #include <algorithm>
+#include <limits>
 
 namespace plumb {
 
@@ -14,7 +15,24 @@ bool Contains(std::span<const Eigen::Vector2d> ring, const Eigen::Vector2d& p) {
 }
 
 bool Contains(const Room& room, const Eigen::Vector2d& p) {
-  return Contains(room.polygon, p) && std::none_of(room.holes.begin(), room.holes.end(), [&](const Ring& hole) { return Contains(hole, p); });
+  return Contains(room.polygon, p) &&
+         std::none_of(room.holes.begin(), room.holes.end(), [&](const Ring& hole) { return Contains(hole, p); });
+}
+
+Eigen::Vector2d NearestOnSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  const Eigen::Vector2d along = b - a;
+  const double length2 = along.squaredNorm();
+  return a + (length2 > 0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0) * along;
+}
+
+double DistanceToSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return (p - NearestOnSegment(p, a, b)).norm();
+}
+
+double DistanceToRing(std::span<const Eigen::Vector2d> ring, const Eigen::Vector2d& p) {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (size_t i = 0; i < ring.size(); ++i) nearest = std::min(nearest, DistanceToSegment(p, ring[i], ring[(i + 1) % ring.size()]));
+  return nearest;
 }
 
 RoomId RoomAt(const AGraph& graph, const Eigen::Vector3d& p) {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "schema/polygon.h"
+
 namespace plumb::compiler {
 namespace {
 
@@ -19,15 +21,7 @@ bool AreaIsLeft(const Area& profile, size_t ring) {
   const Vector2d p = profile[ring][0];
   size_t containing = 0;
   for (size_t r = 0; r < profile.size(); ++r) {
-    if (r == ring) continue;
-    bool inside = false;
-    const Ring2& other = profile[r];
-    for (size_t i = 0, j = other.size() - 1; i < other.size(); j = i++) {
-      const bool crosses = (other[i].y() > p.y()) != (other[j].y() > p.y());
-      if (crosses && p.x() < (other[j].x() - other[i].x()) * (p.y() - other[i].y()) / (other[j].y() - other[i].y()) + other[i].x())
-        inside = !inside;
-    }
-    containing += inside;
+    if (r != ring && Contains(profile[r], p)) ++containing;
   }
   const bool counter_clockwise = SignedArea(profile[ring]) > 0;
   return counter_clockwise == (containing % 2 == 0);

@@ -196,21 +196,9 @@ Ring Simplified(const Ring& ring, double tolerance_m) {
   return out;
 }
 
-Eigen::Vector2d NearestOnSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  const Eigen::Vector2d along = b - a;
-  const double length2 = along.squaredNorm();
-  return a + (length2 > 0 ? std::clamp((p - a).dot(along) / length2, 0.0, 1.0) : 0.0) * along;
-}
-
-double DistanceToSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  return (p - NearestOnSegment(p, a, b)).norm();
-}
-
 double DistanceToRings(const Eigen::Vector2d& p, std::span<const Ring> rings) {
   double best = std::numeric_limits<double>::infinity();
-  for (const Ring& ring : rings) {
-    for (size_t i = 0; i < ring.size(); ++i) best = std::min(best, DistanceToSegment(p, ring[i], ring[(i + 1) % ring.size()]));
-  }
+  for (const Ring& ring : rings) best = std::min(best, DistanceToRing(ring, p));
   return best;
 }
 

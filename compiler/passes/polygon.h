@@ -8,6 +8,7 @@
 
 #include "compiler/geometry/triangulate.h"
 #include "schema/agraph.h"
+#include "schema/polygon.h"
 
 namespace plumb::compiler {
 
@@ -34,8 +35,6 @@ namespace plumb::compiler {
 // Without the vertices that lie within `tolerance_m` of the line through their neighbours, and without spikes. May come back empty.
 [[nodiscard]] Ring Simplified(const Ring& ring, double tolerance_m);
 
-[[nodiscard]] Eigen::Vector2d NearestOnSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b);
-[[nodiscard]] double DistanceToSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b);
 [[nodiscard]] double DistanceToRings(const Eigen::Vector2d& p, std::span<const Ring> rings);
 [[nodiscard]] Eigen::AlignedBox2d BoundingBox(std::span<const Ring> rings);
 

@@ -13,20 +13,9 @@ namespace {
 
 constexpr double kRoomMargin_m = 0.5;
 
-double DistanceToSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  const Eigen::Vector2d u = b - a;
-  const double along = u.squaredNorm() > 0 ? std::clamp((p - a).dot(u) / u.squaredNorm(), 0.0, 1.0) : 0;
-  return (p - a - along * u).norm();
-}
-
 bool IsNearRoom(const Room& room, const Eigen::Vector3d& p) {
   if (p.z() < room.floor_z_m - kRoomMargin_m || p.z() > room.ceiling_z_m + kRoomMargin_m) return false;
-  const Eigen::Vector2d q = p.head<2>();
-  if (Contains(room, q)) return true;
-  for (size_t i = 0, j = room.polygon.size() - 1; i < room.polygon.size(); j = i++) {
-    if (DistanceToSegment(q, room.polygon[j], room.polygon[i]) <= kRoomMargin_m) return true;
-  }
-  return false;
+  return Contains(room, p.head<2>()) || DistanceToRing(room.polygon, p.head<2>()) <= kRoomMargin_m;
 }
 
 // Relative to 1 / (area of all rooms).
@@ -35,12 +24,14 @@ double RelativeDensity(const AGraph& plan, const StartHint& hint, const Eigen::V
   if (hint.near_m) {
     const double variance_m2 = hint.near_sigma_m * hint.near_sigma_m;
     const double num_storeys = std::max<double>(1, static_cast<double>(plan.storeys.size()));
-    density *= area_m2 / num_storeys / (2 * std::numbers::pi * variance_m2) * std::exp(-0.5 * (p.head<2>() - *hint.near_m).squaredNorm() / variance_m2);
+    density *= area_m2 / num_storeys / (2 * std::numbers::pi * variance_m2) *
+               std::exp(-0.5 * (p.head<2>() - *hint.near_m).squaredNorm() / variance_m2);
   }
   if (!hint.rooms.empty()) {
     double rooms_m2 = 0;
     for (const RoomId room : hint.rooms) rooms_m2 += plan.rooms[room.index()].area_m2;
-    const bool near = std::any_of(hint.rooms.begin(), hint.rooms.end(), [&](RoomId room) { return IsNearRoom(plan.rooms[room.index()], p); });
+    const bool near =
+        std::any_of(hint.rooms.begin(), hint.rooms.end(), [&](RoomId room) { return IsNearRoom(plan.rooms[room.index()], p); });
     density *= near && rooms_m2 > 0 ? area_m2 / rooms_m2 : 0;
   }
   return density;
@@ -49,7 +40,9 @@ double RelativeDensity(const AGraph& plan, const StartHint& hint, const Eigen::V
 }  // namespace
 
 std::string StartHint::Check() const {
-  const auto bad = [](const char* name, double value, const char* rule) { return fmt::format("StartHint.{} = {}; must be {}", name, value, rule); };
+  const auto bad = [](const char* name, double value, const char* rule) {
+    return fmt::format("StartHint.{} = {}; must be {}", name, value, rule);
+  };
   if (near_m && !near_m->allFinite()) return bad("near_m", near_m->x(), "finite");
   if (!(near_sigma_m >= 0.1 && near_sigma_m <= 1000)) return bad("near_sigma_m", near_sigma_m, "from 0.1 to 1000");
   if (!(trust > 0 && trust < 1)) return bad("trust", trust, "in (0, 1)");

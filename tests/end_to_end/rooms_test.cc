@@ -1,6 +1,5 @@
 // The rooms of a real house, from a simulated tour through it to sgraph.json.
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -14,10 +13,7 @@
 namespace plumb {
 namespace {
 
-namespace fs = std::filesystem;
 using Json = nlohmann::json;
-using test::Plumb;
-using test::ReadJson;
 
 // Rooms that the plan parts by a line and no wall: nothing tells a robot where one ends.
 std::set<int> PartsOfOpenPlans(const Json& plan) {
@@ -29,15 +25,14 @@ std::set<int> PartsOfOpenPlans(const Json& plan) {
 }
 
 TEST(Rooms, OfTheFzkHouseAreThoseOfItsPlan) {
-  const std::string source = PLUMB_SOURCE_DIR "/../shared/data/plans/ifc/AC20-FZK-Haus.ifc";
-  if (!fs::exists(source)) GTEST_SKIP() << "the plan AC20-FZK-Haus.ifc is not there";
-  const fs::path folder = fs::path(::testing::TempDir()) / ("plumb_rooms." + std::to_string(getpid()));
-  fs::create_directories(folder);
-  ASSERT_EQ(Plumb(folder, "compile '" + source + "' -o plan.agraph 2> compile.txt"), 0);
-  ASSERT_EQ(Plumb(folder, "inspect plan.agraph --json > plan.json"), 0);
-  ASSERT_EQ(Plumb(folder, "simulate plan.agraph --seed 1 --deviate 0 --sensor vlp16 --duration 120 -o rec/"), 0);
-  ASSERT_EQ(Plumb(folder, "localize plan.agraph rec/ -o run/"), 0);
-  const Json plan = ReadJson(folder / "plan.json"), sgraph = ReadJson(folder / "run/sgraph.json"), truth = ReadJson(folder / "rec/truth.json");
+  const std::string source = test::SharedPlan("ifc/AC20-FZK-Haus.ifc");
+  if (!std::filesystem::exists(source)) GTEST_SKIP() << source << " is not there";
+  const test::ProgramFolder folder("rooms");
+  ASSERT_EQ(folder.Plumb("compile '" + source + "' -o plan.agraph 2> compile.txt"), 0);
+  ASSERT_EQ(folder.Plumb("inspect plan.agraph --json > plan.json"), 0);
+  ASSERT_EQ(folder.Plumb("simulate plan.agraph --seed 1 --deviate 0 --sensor vlp16 --duration 120 -o rec/"), 0);
+  ASSERT_EQ(folder.Plumb("localize plan.agraph rec/ -o run/"), 0);
+  const Json plan = folder.Json("plan.json"), sgraph = folder.Json("run/sgraph.json"), truth = folder.Json("rec/truth.json");
   const int storey = truth.at("storey").get<int>();
   const std::set<int> open = PartsOfOpenPlans(plan);
   int rooms = 0, doorways = 0;
@@ -59,7 +54,6 @@ TEST(Rooms, OfTheFzkHouseAreThoseOfItsPlan) {
   }
   EXPECT_GE(rooms, 2);
   EXPECT_GE(doorways, 2);
-  if (!::testing::Test::HasFailure()) fs::remove_all(folder);
 }
 
 }  // namespace

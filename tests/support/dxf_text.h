@@ -24,7 +24,8 @@ class DxfText {
     return *this;
   }
   DxfText& Line(const std::string& layer, double x0, double y0, double x1, double y1) {
-    return Entity("LINE", layer, {{10, fmt::format("{}", x0)}, {20, fmt::format("{}", y0)}, {11, fmt::format("{}", x1)}, {21, fmt::format("{}", y1)}});
+    return Entity("LINE", layer,
+                  {{10, fmt::format("{}", x0)}, {20, fmt::format("{}", y0)}, {11, fmt::format("{}", x1)}, {21, fmt::format("{}", y1)}});
   }
   // A closed outline.
   DxfText& Outline(const std::string& layer, const std::vector<std::pair<double, double>>& points) {
@@ -32,7 +33,9 @@ class DxfText {
     for (const auto& [x, y] : points) pairs.insert(pairs.end(), {{10, fmt::format("{}", x)}, {20, fmt::format("{}", y)}});
     return Entity("LWPOLYLINE", layer, pairs);
   }
-  DxfText& Box(const std::string& layer, double x0, double y0, double x1, double y1) { return Outline(layer, {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}}); }
+  DxfText& Box(const std::string& layer, double x0, double y0, double x1, double y1) {
+    return Outline(layer, {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}});
+  }
   DxfText& Text(const std::string& layer, const std::string& text, double x, double y, double height = 0.2) {
     return Entity("TEXT", layer, {{10, fmt::format("{}", x)}, {20, fmt::format("{}", y)}, {40, fmt::format("{}", height)}, {1, text}});
   }
@@ -58,7 +61,9 @@ class DxfText {
     return End();
   }
   [[nodiscard]] std::string Str() const {
-    const auto section = [](const char* name, const std::string& body) { return fmt::format("  0\nSECTION\n  2\n{}\n{}  0\nENDSEC\n", name, body); };
+    const auto section = [](const char* name, const std::string& body) {
+      return fmt::format("  0\nSECTION\n  2\n{}\n{}  0\nENDSEC\n", name, body);
+    };
     return section("HEADER", header_) + section("BLOCKS", blocks_) + section("ENTITIES", entities_) + "  0\nEOF\n";
   }
 

@@ -75,14 +75,15 @@ PlanarWorld MakeLoopWorld() {
 
 std::vector<runtime::Pose2> LoopDrive(double step_m) {
   constexpr double kMaxTurn_rad = 0.35;
-  const std::vector<Eigen::Vector2d> way = {{-2, 0},  {3, -0.5}, {5.2, -0.5}, {5.2, -2},  {17.2, -2}, {17.2, 8}, {5.2, 8},
-                                            {5.2, -0.5}, {3, -0.5}, {-2, 0},     {-2, -1.5}, {2.5, 1},   {3, -0.5}, {5.2, -0.5}, {5.2, -2}, {12, -2}};
+  const std::vector<Eigen::Vector2d> way = {{-2, 0},   {3, -0.5}, {5.2, -0.5}, {5.2, -2}, {17.2, -2}, {17.2, 8},   {5.2, 8},  {5.2, -0.5},
+                                            {3, -0.5}, {-2, 0},   {-2, -1.5},  {2.5, 1},  {3, -0.5},  {5.2, -0.5}, {5.2, -2}, {12, -2}};
   std::vector<runtime::Pose2> poses;
   double yaw_rad = 0;
   for (size_t i = 0; i + 1 < way.size(); ++i) {
     const Eigen::Vector2d leg = way[i + 1] - way[i];
     const double turn_rad = runtime::WrapYaw(std::atan2(leg.y(), leg.x()) - yaw_rad);
-    const int turns = static_cast<int>(std::ceil(std::abs(turn_rad) / kMaxTurn_rad)), steps = static_cast<int>(std::ceil(leg.norm() / step_m));
+    const int turns = static_cast<int>(std::ceil(std::abs(turn_rad) / kMaxTurn_rad)),
+              steps = static_cast<int>(std::ceil(leg.norm() / step_m));
     for (int k = 1; k <= turns; ++k) poses.push_back({way[i], runtime::WrapYaw(yaw_rad + turn_rad * k / turns)});
     yaw_rad = runtime::WrapYaw(yaw_rad + turn_rad);
     for (int k = 1; k <= steps; ++k) poses.push_back({way[i] + leg * k / steps, yaw_rad});

@@ -23,13 +23,15 @@ class PlanarWorld {
   void AddBox(const Eigen::Vector2d& lo, const Eigen::Vector2d& hi);
 
   // What the laser sees at `pose`, all at once, one ring at z = 0. The same seed gives the same noise.
-  [[nodiscard]] runtime::Scan Sweep(const runtime::Pose2& pose, double stamp_s, uint64_t seed, const PlanarLaserOptions& options = {}) const;
+  [[nodiscard]] runtime::Scan Sweep(const runtime::Pose2& pose, double stamp_s, uint64_t seed,
+                                    const PlanarLaserOptions& options = {}) const;
 
  private:
   std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> walls_;
 };
 
-// A room of 8 m x 6 m with furniture, from whose door a corridor leads round a block of 10 m x 8 m and back to it. Origin: the room's middle.
+// A room of 8 m x 6 m with furniture, from whose door a corridor leads round a block of 10 m x 8 m and back to it. Origin: the room's
+// middle.
 [[nodiscard]] PlanarWorld MakeLoopWorld();
 // From the room, round the block and back into the room, `step_m` apart and turning by at most 0.35 rad at a time.
 [[nodiscard]] std::vector<runtime::Pose2> LoopDrive(double step_m);

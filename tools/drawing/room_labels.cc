@@ -8,6 +8,8 @@
 #include <limits>
 #include <vector>
 
+#include "schema/polygon.h"
+
 namespace plumb::tools {
 namespace {
 
@@ -16,12 +18,6 @@ using Eigen::Vector2d;
 // Units of the sheet: 0.1 mm.
 constexpr double kSmallest = 13, kLargest = 26;
 constexpr double kLine = 1.15;  // step of a line, of the font's size
-
-double DistanceToSegment(const Vector2d& p, const Vector2d& a, const Vector2d& b) {
-  const Vector2d ab = b - a;
-  const double t = ab.squaredNorm() > 0 ? std::clamp((p - a).dot(ab) / ab.squaredNorm(), 0.0, 1.0) : 0.0;
-  return (p - a - t * ab).norm();
-}
 
 template <class Visit>
 void VisitEdges(const Room& room, Visit visit) {
@@ -34,13 +30,9 @@ void VisitEdges(const Room& room, Visit visit) {
 
 // Distance to the boundary, negative outside.
 double Clearance(const Room& room, const Vector2d& p) {
-  double nearest = std::numeric_limits<double>::max();
-  bool inside = false;
-  VisitEdges(room, [&](const Vector2d& a, const Vector2d& b) {
-    nearest = std::min(nearest, DistanceToSegment(p, a, b));
-    if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < a.x() + (p.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x())) inside = !inside;
-  });
-  return inside ? nearest : -nearest;
+  double nearest = DistanceToRing(room.polygon, p);
+  for (const Ring& hole : room.holes) nearest = std::min(nearest, DistanceToRing(hole, p));
+  return Contains(room, p) ? nearest : -nearest;
 }
 
 // Where a label has most room: the centroid if it lies well inside, else the best point of a grid.

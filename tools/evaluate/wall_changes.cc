@@ -16,18 +16,7 @@ constexpr double kNear_m = 0.10;
 constexpr double kCovered = 0.5;
 constexpr int kSamples = 50;
 
-double DistanceToSegment(const Eigen::Vector2d& p, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  const double length2 = (b - a).squaredNorm();
-  const double t = length2 > 0 ? std::clamp((p - a).dot(b - a) / length2, 0.0, 1.0) : 0.0;
-  return (p - a - t * (b - a)).norm();
-}
-
-bool IsNear(const Eigen::Vector2d& p, const Polygon& polygon) {
-  for (size_t i = 0; i < polygon.size(); ++i) {
-    if (DistanceToSegment(p, polygon[i], polygon[(i + 1) % polygon.size()]) <= kNear_m) return true;
-  }
-  return Contains(polygon, p);
-}
+bool IsNear(const Eigen::Vector2d& p, const Polygon& polygon) { return DistanceToRing(polygon, p) <= kNear_m || Contains(polygon, p); }
 
 // Points along the middle of the polygon, from the middle of its shortest side to that of the one that is farthest from it.
 Polygon CentreLine(const Polygon& polygon) {

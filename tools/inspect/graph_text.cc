@@ -45,9 +45,11 @@ void WriteStorey(const AGraph& g, StoreyId storey, Writer write) {
 void WriteAliases(const AGraph& g, Writer write) {
   for (size_t i = 0; i < g.aliases.size(); ++i) {
     const Alias& a = g.aliases[i];
-    fmt::format_to(write, "\nalias {}: turned by {:.1f} deg, moved by ({:.2f}, {:.2f}, {:.2f}) m; {:.0f} % of {:.0f} m of wall sections coincide within {} m{}\n",
-                   i, Degrees(a.yaw_rad), a.translation.x(), a.translation.y(), a.translation.z(), 100 * a.overlap_ratio, a.section_length_m,
-                   a.tolerance_m, a.closed ? "" : "; other rooms tell");
+    fmt::format_to(write,
+                   "\nalias {}: turned by {:.1f} deg, moved by ({:.2f}, {:.2f}, {:.2f}) m; {:.0f} % of {:.0f} m of wall sections coincide "
+                   "within {} m{}\n",
+                   i, Degrees(a.yaw_rad), a.translation.x(), a.translation.y(), a.translation.z(), 100 * a.overlap_ratio,
+                   a.section_length_m, a.tolerance_m, a.closed ? "" : "; other rooms tell");
     for (size_t k = 0; k < a.rooms.size(); ++k) fmt::format_to(write, "  {} = {}\n", RoomName(g, a.rooms[k]), RoomName(g, a.twins[k]));
   }
   if (!g.look_alikes.empty()) fmt::format_to(write, "\nrooms that look alike from inside\n");

@@ -51,7 +51,9 @@ void Tell(const CompileFlags& flags, const std::vector<compiler::Diagnostic>& di
 // NAME=FILE@ELEVATION. The file may have `@` in its name, the name `=` not.
 Expected<compiler::StoreyDrawing> ParseStorey(const std::string& text) {
   const size_t equals = text.find('='), at = text.rfind('@');
-  const auto wrong = [&] { return Fail(ErrorCode::kBadOption, fmt::format("--storey {}: must be NAME=FILE@ELEVATION, as in EG=ground.dxf@0", text)); };
+  const auto wrong = [&] {
+    return Fail(ErrorCode::kBadOption, fmt::format("--storey {}: must be NAME=FILE@ELEVATION, as in EG=ground.dxf@0", text));
+  };
   if (equals == std::string::npos || equals == 0 || at == std::string::npos || at < equals + 2) return wrong();
   compiler::StoreyDrawing out{text.substr(0, equals), text.substr(equals + 1, at - equals - 1), 0};
   const char *first = text.data() + at + 1, *last = text.data() + text.size();
@@ -115,15 +117,18 @@ void AddCompileOptions(CLI::App& subcommand, compiler::CompileOptions& options) 
   subcommand.add_option("--snap-radius", options.snap_radius_m, "corners of walls closer than this become one, m");
   subcommand.add_option("--min-room-area", options.min_room_area_m2, "smaller faces between walls are shafts, not rooms, m2");
   subcommand.add_option("--max-gap", options.max_gap_m, "walls closer than this are taken to meet where that keeps two rooms apart, m");
-  subcommand.add_option("--unit", options.unit, "of a drawing or mesh: m, cm, mm, in or ft; else as the file states, if walls and doors then have usual sizes");
+  subcommand.add_option("--unit", options.unit,
+                        "of a drawing or mesh: m, cm, mm, in or ft; else as the file states, if walls and doors then have usual sizes");
   subcommand.add_option("--up", options.up, "of meshes: x, y or z; else as stated by the file or seen in its walls");
   subcommand.add_option("--model-path", options.model_path, "of Gazebo worlds: folders besides the world's own that hold included models")
       ->envname("GAZEBO_MODEL_PATH")
       ->delimiter(':');
   subcommand.add_option("--divide-open-plans", options.divide_open_plans, "along the plan's spaces where no walls do; else one room");
   compiler::DrawingFileOptions& drawing = options.drawing;
-  subcommand.add_option("--scale", drawing.scale_m, "of a drawing: metres of one unit of the file, instead of --unit; for SVG the unit of its viewBox");
-  subcommand.add_option("--layers", drawing.layers, "of a drawing: aia, english, german, french, italian, spanish, none, or a TOML file")->type_name("SET|FILE");
+  subcommand.add_option("--scale", drawing.scale_m,
+                        "of a drawing: metres of one unit of the file, instead of --unit; for SVG the unit of its viewBox");
+  subcommand.add_option("--layers", drawing.layers, "of a drawing: aia, english, german, french, italian, spanish, none, or a TOML file")
+      ->type_name("SET|FILE");
   subcommand.add_option("--sheet", drawing.sheet, "of a drawing with several plans side by side, from 1; 0: all, as storeys");
   subcommand.add_option("--storey-height", drawing.plan.heights.storey_m, "of a drawing: height of its walls, m");
   subcommand.add_option("--door-height", drawing.plan.heights.door_m, "of a drawing: height of its doors, m");
@@ -134,18 +139,24 @@ void AddCompileOptions(CLI::App& subcommand, compiler::CompileOptions& options) 
 
 void AddCompile(CLI::App& app, Session& session) {
   auto flags = std::make_shared<CompileFlags>();
-  CLI::App* sub = AddSubcommand(app, session, "compile", "Turn a floor plan into an A-Graph: rooms, wall surfaces, doorways, triangles",
-                                "  plumb compile house.ifc -o house.agraph\n"
-                                "  plumb compile house.ifc.gz -o house.agraph --diagnostics-json house.json\n"
-                                "  plumb compile flat.svg --scale 0.01 -o flat.agraph\n"
-                                "  plumb compile plan.dxf --layers german --unit cm -o plan.agraph\n"
-                                "  plumb compile site.stl --unit mm --up z -o site.agraph\n"
-                                "  plumb compile house.world --model-path ~/models -o house.agraph\n"
-                                "  plumb compile a.dxf b.svg --storey EG=a.dxf@0 --storey OG=b.svg@3.0 -o house.agraph\n"
-                                "Status 1: the A-Graph is written, but has errors in it: in a plan without walls no robot can localize, say.\n"
-                                "Status 2: nothing is written: the file is damaged, too large, of no schema that is read, or has no building in it.");
-  sub->add_option("PLAN", flags->plans, "the plan: IFC (STEP), a drawing (DXF, SVG), a mesh (OBJ, PLY, STL, glTF, COLLADA) or a Gazebo world (SDF); plain, gzipped or in a ZIP archive")->required();
-  sub->add_option("--storey", flags->storeys, "a drawing's storey and the height of its floor, m; once for each")->type_name("NAME=FILE@ELEVATION")->allow_extra_args(false);
+  CLI::App* sub =
+      AddSubcommand(app, session, "compile", "Turn a floor plan into an A-Graph: rooms, wall surfaces, doorways, triangles",
+                    "  plumb compile house.ifc -o house.agraph\n"
+                    "  plumb compile house.ifc.gz -o house.agraph --diagnostics-json house.json\n"
+                    "  plumb compile flat.svg --scale 0.01 -o flat.agraph\n"
+                    "  plumb compile plan.dxf --layers german --unit cm -o plan.agraph\n"
+                    "  plumb compile site.stl --unit mm --up z -o site.agraph\n"
+                    "  plumb compile house.world --model-path ~/models -o house.agraph\n"
+                    "  plumb compile a.dxf b.svg --storey EG=a.dxf@0 --storey OG=b.svg@3.0 -o house.agraph\n"
+                    "Status 1: the A-Graph is written, but has errors in it: in a plan without walls no robot can localize, say.\n"
+                    "Status 2: nothing is written: the file is damaged, too large, of no schema that is read, or has no building in it.");
+  sub->add_option("PLAN", flags->plans,
+                  "the plan: IFC (STEP), a drawing (DXF, SVG), a mesh (OBJ, PLY, STL, glTF, COLLADA) or a Gazebo world (SDF); plain, "
+                  "gzipped or in a ZIP archive")
+      ->required();
+  sub->add_option("--storey", flags->storeys, "a drawing's storey and the height of its floor, m; once for each")
+      ->type_name("NAME=FILE@ELEVATION")
+      ->allow_extra_args(false);
   sub->add_option("-o,--output", flags->output, "the A-Graph to write")->required()->type_name("FILE.agraph");
   sub->add_option("--diagnostics-json", flags->diagnostics_json, "write what the compiler has to say about the plan as JSON")
       ->type_name("FILE");

@@ -47,7 +47,8 @@ CompileLimits::CompileLimits(const std::string& plan_path) {
   watch_ = std::thread([this, time, plan_path] {
     std::unique_lock lock(mutex_);
     if (done_changed_.wait_for(lock, time, [this] { return done_; })) return;
-    fmt::print(stderr, "error: `{}` takes more than {:.0f} s to compile; at most that is given to a plan of its size\n", plan_path, time.count());
+    fmt::print(stderr, "error: `{}` takes more than {:.0f} s to compile; at most that is given to a plan of its size\n", plan_path,
+               time.count());
     std::_Exit(static_cast<int>(Status::kBadInput));
   });
   if (kLimitMemory) previous_data_limit_ = SetDataLimit(static_cast<rlim_t>(kBytes * factor));

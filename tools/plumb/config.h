@@ -13,9 +13,9 @@ class App;
 
 namespace plumb::tools {
 
-// Replaces nothing and adds: every key of the file after `--config` becomes a flag right behind the subcommand, so that flags on the command line,
-// which come later, win. Keys at the top level and in the table named after the subcommand count; tables of other subcommands are left alone.
-// Errors: kFileNotFound, kBadOption (TOML syntax with its line; unknown key, with the nearest name).
+// Replaces nothing and adds: every key of the file after `--config` becomes a flag right behind the subcommand, so that flags on the
+// command line, which come later, win. Keys at the top level and in the table named after the subcommand count; tables of other subcommands
+// are left alone. Errors: kFileNotFound, kBadOption (TOML syntax with its line; unknown key, with the nearest name).
 [[nodiscard]] Expected<std::vector<std::string>> ExpandConfig(const CLI::App& app, const std::vector<std::string>& arguments);
 
 // All options of the subcommand with the values they have now, as a configuration file. Positional arguments are not part of it.

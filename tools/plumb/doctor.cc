@@ -44,7 +44,9 @@ void ExamineStamps(const runtime::Recording& recording, Examination& out) {
     gaps += step_s > 1.8 * period_s;
   }
   fmt::format_to(write, ", {:.2f} Hz, longest step {:.3f} s\n", 1 / period_s, longest_s);
-  if (gaps > 0) out.findings.push_back(fmt::format("{} gaps between scans, the longest {:.2f} s at a period of {:.3f} s: scans are missing", gaps, longest_s, period_s));
+  if (gaps > 0)
+    out.findings.push_back(
+        fmt::format("{} gaps between scans, the longest {:.2f} s at a period of {:.3f} s: scans are missing", gaps, longest_s, period_s));
 }
 
 // Reads every scan; the files are what mostly goes wrong.
@@ -70,13 +72,17 @@ void ExamineScans(const runtime::Recording& recording, Console& console, Examina
   }
   auto write = std::back_inserter(out.facts);
   if (read > 0) fmt::format_to(write, "points     {:.0f} per scan, farthest {:.1f} m\n", points / static_cast<double>(read), farthest_m);
-  fmt::format_to(write, "time       {}\n", without_time == read ? "none" : fmt::format("{:.4f} to {:.4f} s after the stamp", least_s, most_s));
+  fmt::format_to(write, "time       {}\n",
+                 without_time == read ? "none" : fmt::format("{:.4f} to {:.4f} s after the stamp", least_s, most_s));
   fmt::format_to(write, "ring       {}\n", without_ring == read ? "none" : "yes");
   if (unreadable > 0) out.findings.push_back(fmt::format("{} scans cannot be read, the first: {}", unreadable, first_error));
   if (empty > 0) out.findings.push_back(fmt::format("{} scans have fewer than 100 points", empty));
-  if (without_time > 0) out.findings.push_back(fmt::format("{} scans have no time per point: motion during the sweep cannot be taken out", without_time));
-  if (farthest_m > 1000) out.findings.push_back(fmt::format("a point is {:.0f} m away: are these millimetres? coordinates are in metres", farthest_m));
-  if (most_s > 0.5F || least_s < -0.5F) out.findings.emplace_back("times per point span more than half a second: are they in seconds after the stamp?");
+  if (without_time > 0)
+    out.findings.push_back(fmt::format("{} scans have no time per point: motion during the sweep cannot be taken out", without_time));
+  if (farthest_m > 1000)
+    out.findings.push_back(fmt::format("a point is {:.0f} m away: are these millimetres? coordinates are in metres", farthest_m));
+  if (most_s > 0.5F || least_s < -0.5F)
+    out.findings.emplace_back("times per point span more than half a second: are they in seconds after the stamp?");
 }
 
 void ExamineOdometry(const runtime::Recording& recording, Examination& out) {
@@ -89,9 +95,11 @@ void ExamineOdometry(const runtime::Recording& recording, Examination& out) {
   for (size_t i = 0; i < recording.size(); ++i) covered += runtime::InterpolatePose(odometry, recording.stamp_s(i)).has_value();
   double path_m = 0;
   for (size_t i = 1; i < odometry.size(); ++i) path_m += (odometry[i].T.translation() - odometry[i - 1].T.translation()).norm();
-  fmt::format_to(std::back_inserter(out.facts), "odometry   {} poses, {:.1f} m, covers {} of {} scans\n", odometry.size(), path_m, covered, recording.size());
+  fmt::format_to(std::back_inserter(out.facts), "odometry   {} poses, {:.1f} m, covers {} of {} scans\n", odometry.size(), path_m, covered,
+                 recording.size());
   if (covered + 1 < recording.size()) {
-    out.findings.push_back(fmt::format("odometry.tum does not cover {} of {} scans: other clock, or it stops early", recording.size() - covered, recording.size()));
+    out.findings.push_back(fmt::format("odometry.tum does not cover {} of {} scans: other clock, or it stops early",
+                                       recording.size() - covered, recording.size()));
   }
 }
 
@@ -114,7 +122,8 @@ Status RunDoctor(const std::string& folder, Session& session) {
 
 void AddDoctor(CLI::App& app, Session& session) {
   auto folder = std::make_shared<std::string>();
-  CLI::App* sub = AddSubcommand(app, session, "doctor", "Check a recording folder: rates, gaps, missing fields, odometry", "  plumb doctor rec/");
+  CLI::App* sub =
+      AddSubcommand(app, session, "doctor", "Check a recording folder: rates, gaps, missing fields, odometry", "  plumb doctor rec/");
   sub->add_option("REC", *folder, "recording folder")->required();
   sub->callback([folder, &session] { session.status = RunDoctor(*folder, session); });
 }

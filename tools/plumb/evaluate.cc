@@ -29,12 +29,14 @@ std::vector<std::string> UnmetRequirements(const Evaluation& e, const EvaluateFl
   if (flags.within_s && (!e.time_to_localize_s || *e.time_to_localize_s > *flags.within_s || e.wrong_fixes > 0)) {
     unmet.push_back(fmt::format("not rightly localized within {} s", *flags.within_s));
   }
-  if (flags.ate_m && (e.online.count == 0 || e.online.rmse_m >= *flags.ate_m)) unmet.push_back(fmt::format("ATE is not below {} m", *flags.ate_m));
+  if (flags.ate_m && (e.online.count == 0 || e.online.rmse_m >= *flags.ate_m))
+    unmet.push_back(fmt::format("ATE is not below {} m", *flags.ate_m));
   if (flags.deviation_m) {
     if (e.CountWalls(WallOutcome::kMissed) > 0) unmet.emplace_back("a deviated wall was missed");
     if (e.CountWalls(WallOutcome::kUnobserved) > 0) unmet.emplace_back("a deviated wall was not observed");
     if (e.CountWalls(WallOutcome::kFalse) > 0) unmet.emplace_back("a wall was reported that stands as planned");
-    if (e.max_translation_error_m() >= *flags.deviation_m) unmet.push_back(fmt::format("a deviation is off by {} m or more", *flags.deviation_m));
+    if (e.max_translation_error_m() >= *flags.deviation_m)
+      unmet.push_back(fmt::format("a deviation is off by {} m or more", *flags.deviation_m));
   }
   if (flags.rotation_deg && e.max_rotation_error_deg() >= *flags.rotation_deg) {
     unmet.push_back(fmt::format("the turn of a deviated wall is off by {} deg or more", *flags.rotation_deg));
@@ -52,7 +54,8 @@ Status RunEvaluate(EvaluateFlags flags, Session& session) {
   const auto info = ReadRunInfo(flags.run);
   if (!info) return session.Fail(info.error());
   if (!truth->plan_source_sha256.empty() && !info->plan_source_sha256.empty() && truth->plan_source_sha256 != info->plan_source_sha256) {
-    return session.Fail({ErrorCode::kBadRunFolder, fmt::format("`{}` was made with another plan than `{}`: walls cannot be compared", flags.run, flags.truth)});
+    return session.Fail({ErrorCode::kBadRunFolder,
+                         fmt::format("`{}` was made with another plan than `{}`: walls cannot be compared", flags.run, flags.truth)});
   }
   if (std::error_code error; !std::filesystem::equivalent(info->recording_path, flags.truth, error)) {
     session.console.Info(fmt::format("note: {} was made from {}, the truth is that of {}", flags.run, info->recording_path, flags.truth));
@@ -84,8 +87,10 @@ void AddEvaluate(CLI::App& app, Session& session) {
   sub->add_option("--min-points", flags->options.min_points, "a wall with fewer returns on each side was not observed");
   sub->add_option("--require-localized-within", flags->within_s, "finding unless localized after this long, and never wrongly, s");
   sub->add_option("--require-ate", flags->ate_m, "finding unless the ATE is below this, m");
-  sub->add_option("--require-deviations", flags->deviation_m, "finding unless all deviated walls are found to within this, and no others, m");
-  sub->add_option("--require-rotation", flags->rotation_deg, "finding unless the turns of all deviated walls are found to within this, deg");
+  sub->add_option("--require-deviations", flags->deviation_m,
+                  "finding unless all deviated walls are found to within this, and no others, m");
+  sub->add_option("--require-rotation", flags->rotation_deg,
+                  "finding unless the turns of all deviated walls are found to within this, deg");
   sub->callback([flags, &session] { session.status = RunEvaluate(*flags, session); });
 }
 

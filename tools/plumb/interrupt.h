@@ -1,5 +1,5 @@
-// Signals while a long job runs. Ctrl-C: it ends early and writes what it has; a second one ends the program at once. SIGUSR1: it writes what it has
-// and goes on.
+// Signals while a long job runs. Ctrl-C: it ends early and writes what it has; a second one ends the program at once. SIGUSR1: it writes
+// what it has and goes on.
 #pragma once
 
 namespace plumb::tools {

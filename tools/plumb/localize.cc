@@ -3,7 +3,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <numbers>
 #include <set>
@@ -16,8 +15,9 @@
 #include "tools/plumb/command.h"
 #include "tools/plumb/config.h"
 #include "tools/plumb/flag_names.h"
-#include "tools/plumb/interrupt.h"
 #include "tools/plumb/match_rows.h"
+#include "tools/plumb/replayer.h"
+#include "tools/plumb/start_hint_flags.h"
 #include "tools/plumb/updates.h"
 #include "tools/run/ply.h"
 #include "tools/run/run_folder.h"
@@ -41,124 +41,6 @@ struct LocalizeFlags {
   runtime::ReplayOptions replay;
 };
 
-// What the scans gave, in the order of the scans.
-struct Results {
-  runtime::Trajectory online;
-  std::vector<VerdictRow> verdicts;
-  std::vector<TryRow> tries;
-  std::vector<TimingRow> timing;
-  size_t unreadable_scans = 0, untimed_scans = 0, unordered_scans = 0;
-  bool interrupted = false;
-  std::optional<Pace> pace;  // with --rate
-};
-
-// Takes in what a replay gives, scan by scan.
-class Collector {
- public:
-  // `request_update`: called where the user asks what is known.
-  Collector(const AGraph& plan, size_t num_scans, bool paced, Console& console, std::function<void()> request_update)
-      : plan_(plan), num_scans_(num_scans), paced_(paced), console_(console), request_update_(std::move(request_update)) {}
-
-  // False once the user has had enough.
-  bool Add(const runtime::ReplayedScan& scan) {
-    if (interrupt_.requested()) {
-      results_.interrupted = true;
-      return false;
-    }
-    if (interrupt_.TakeReportRequest()) request_update_();
-    if (scan.unreadable) {  // one bad file is no reason to lose hours of good ones
-      console_.Error(scan.unreadable->message + "; skipped");
-      last_error_ = *scan.unreadable;
-      ++results_.unreadable_scans;
-      return true;
-    }
-    const runtime::ScanVerdict& verdict = scan.verdict;
-    if (!verdict.in_order) {
-      if (results_.unordered_scans++ == 0) {
-        console_.Info(fmt::format("the scan at {:.9f} s does not come after the one before it: left out, as all others of that kind", verdict.stamp_s));
-      }
-      return true;
-    }
-    if (!verdict.timed && scan.has_points && results_.untimed_scans++ == 0) {
-      console_.Info(fmt::format("scans without {}per-point time: deskew off", scan.has_times ? "usable " : ""));
-    }
-    if (verdict.last_try && (results_.tries.empty() || verdict.last_try->stamp_s > results_.tries.back().stamp_s)) {
-      results_.tries.push_back(ToRow(plan_, *verdict.last_try));
-    }
-    results_.verdicts.push_back({verdict.stamp_s, runtime::VerdictName(verdict.verdict), verdict.hypotheses});
-    if (verdict.T_plan_lidar) results_.online.push_back({verdict.stamp_s, *verdict.T_plan_lidar});
-    for (const runtime::StageTime& stage : verdict.timing) results_.timing.push_back({verdict.stamp_s, stage.stage, stage.ms});
-    if (paced_) results_.timing.push_back({verdict.stamp_s, "latency", scan.latency_ms});
-    if (paced_) latencies_ms_.push_back(scan.latency_ms);
-    console_.Progress("localizing", scan.index + 1, num_scans_);
-    return true;
-  }
-
-  Expected<Results> Take() {
-    if (results_.verdicts.empty()) return tl::unexpected(last_error_);
-    if (paced_) results_.pace = PaceOf(latencies_ms_);
-    return std::move(results_);
-  }
-
- private:
-  const AGraph& plan_;
-  size_t num_scans_;
-  bool paced_;
-  Console& console_;
-  std::function<void()> request_update_;
-  InterruptGuard interrupt_;
-  Error last_error_{ErrorCode::kBadScan, "no scan lies between --start and the end of the recording"};
-  std::vector<double> latencies_ms_;
-  Results results_;
-};
-
-// The localizer with what a recording taught it, and what it said on the way. One of the two runs; `localizer()` has the results.
-class Replayer {
- public:
-  Replayer(const AGraph& plan, const LocalizeFlags& flags) : plan_(plan), flags_(flags) {
-    if (flags.replay.rate > 0) {
-      online_.emplace(plan, flags.options, flags.replay.online);
-    } else {
-      offline_.emplace(plan, flags.options);
-    }
-  }
-
-  Expected<Results> Run(const runtime::Recording& recording, Console& console) {
-    const auto request_update = [this] { offline_ ? offline_->RequestUpdate() : online_->RequestUpdate(); };
-    Collector collector(plan_, recording.size(), online_.has_value(), console, request_update);
-    const auto sink = [&](const runtime::ReplayedScan& scan) { return collector.Add(scan); };
-    if (offline_) {
-      runtime::ReplayOffline(recording, flags_.replay, *offline_, sink);
-    } else {
-      runtime::ReplayPaced(recording, flags_.replay, *online_, sink);
-      drained_ = &online_->Drain();
-    }
-    Expected<Results> results = collector.Take();
-    if (results && online_) AddGraphSide(*results);
-    return results;
-  }
-
-  runtime::Localizer& localizer() { return offline_ ? *offline_ : *drained_; }
-
- private:
-  void AddGraphSide(Results& results) {
-    for (runtime::OnlineLocalizer::StampedTime& t : online_->TakeGraphTimes()) {
-      results.timing.push_back({t.stamp_s, std::move(t.time.stage), t.time.ms});
-    }
-    std::stable_sort(results.timing.begin(), results.timing.end(), [](const TimingRow& a, const TimingRow& b) { return a.stamp_s < b.stamp_s; });
-    const runtime::OnlineCounts counts = online_->counts();
-    results.pace->rate = flags_.replay.rate;
-    results.pace->held_solves = counts.held_solves;
-    results.pace->unmapped_scans = counts.unmapped_scans;
-  }
-
-  const AGraph& plan_;
-  const LocalizeFlags& flags_;
-  std::optional<runtime::Localizer> offline_;
-  std::optional<runtime::OnlineLocalizer> online_;
-  runtime::Localizer* drained_ = nullptr;
-};
-
 size_t CountWalls(const AGraph& plan, const runtime::DeviationReport& report, runtime::SurfaceStatus status) {
   std::set<WallId> walls;
   for (const runtime::SurfaceDeviation& s : report.surfaces) {
@@ -167,8 +49,8 @@ size_t CountWalls(const AGraph& plan, const runtime::DeviationReport& report, ru
   return walls.size();
 }
 
-RunInfo Describe(const LocalizeFlags& flags, const CLI::App& sub, const AGraph& plan, const Results& results, const runtime::Localizer& localizer,
-                 const runtime::DeviationReport& report) {
+RunInfo Describe(const LocalizeFlags& flags, const CLI::App& sub, const AGraph& plan, const ReplayResults& results,
+                 const runtime::Localizer& localizer, const runtime::DeviationReport& report) {
   RunInfo info;
   info.plumb_version = PLUMB_VERSION;
   info.plan_path = fs::absolute(flags.plan).lexically_normal().string();
@@ -209,7 +91,7 @@ RunInfo Describe(const LocalizeFlags& flags, const CLI::App& sub, const AGraph& 
   return info;
 }
 
-Expected<void> WriteRun(const LocalizeFlags& flags, const AGraph& plan, const Results& results, const runtime::Localizer& localizer,
+Expected<void> WriteRun(const LocalizeFlags& flags, const AGraph& plan, const ReplayResults& results, const runtime::Localizer& localizer,
                         const runtime::DeviationReport& report, const RunInfo& info) {
   const runtime::UpperLayers layers = runtime::DeriveUpperLayers(localizer.map());
   const std::pair<const char*, std::string> files[] = {
@@ -218,7 +100,8 @@ Expected<void> WriteRun(const LocalizeFlags& flags, const AGraph& plan, const Re
       {"verdicts.csv", VerdictsToCsv(results.verdicts)},
       {"hypotheses.json", TriesToJson(results.tries)},
       {"timing.csv", TimingToCsv(results.timing)},
-      {"map.ply", PointsToPly(AsBuiltCloud(localizer, flags.map_voxel_m), fmt::format("as built, {} frame, metres", localizer.T_plan_map() ? "plan" : "map"))},
+      {"map.ply", PointsToPly(AsBuiltCloud(localizer, flags.map_voxel_m),
+                              fmt::format("as built, {} frame, metres", localizer.T_plan_map() ? "plan" : "map"))},
       {"sgraph.json", runtime::SGraphToJson(localizer.map(), layers, localizer.T_plan_map())},
       {"deviations.json", runtime::DeviationsToJson(plan, report)},
       {"run.json", RunInfoToJson(info)},
@@ -227,47 +110,6 @@ Expected<void> WriteRun(const LocalizeFlags& flags, const AGraph& plan, const Re
     if (auto written = WriteFileAtomically((fs::path(flags.output) / name).string(), std::string_view(text)); !written) return written;
   }
   return {};
-}
-
-// "1,2.5"; none if anything but numbers and commas is in it.
-std::optional<std::vector<double>> ParseNumbers(const std::string& text) {
-  std::vector<double> numbers;
-  for (size_t begin = 0; begin <= text.size();) {
-    const size_t end = std::min(text.find(',', begin), text.size());
-    if (!CLI::detail::lexical_cast(text.substr(begin, end - begin), numbers.emplace_back())) return std::nullopt;
-    begin = end + 1;
-  }
-  return numbers;
-}
-
-// Errors: kBadOption (no such room, with the nearest name; out of range).
-Expected<runtime::StartHint> HintOf(const LocalizeFlags& flags, const AGraph& plan) {
-  runtime::StartHint hint;
-  if (!flags.near_m.empty()) {
-    const auto numbers = ParseNumbers(flags.near_m);
-    if (!numbers || numbers->size() < 2 || numbers->size() > 3) {
-      return Fail(ErrorCode::kBadOption, fmt::format("--near {}; must be X,Y or X,Y,SIGMA in metres", flags.near_m));
-    }
-    hint.near_m = Eigen::Vector2d((*numbers)[0], (*numbers)[1]);
-    if (numbers->size() == 3) hint.near_sigma_m = (*numbers)[2];
-  }
-  for (const std::string& name : flags.rooms) {
-    std::vector<std::string> names;
-    const size_t before = hint.rooms.size();
-    for (size_t i = 0; i < plan.rooms.size(); ++i) {
-      if (plan.rooms[i].name == name || plan.rooms[i].guid == name) hint.rooms.emplace_back(i);
-      names.push_back(plan.rooms[i].name);
-    }
-    if (hint.rooms.size() > before) continue;
-    const std::string near = NearestName(name, names);
-    return Fail(ErrorCode::kBadOption, fmt::format("--room {}: the plan has no such room{}; `plumb inspect` lists them", name,
-                                                   near.empty() ? "" : fmt::format("; did you mean `{}`?", near)));
-  }
-  if (hint.given() && flags.options.matcher_kind == runtime::MatcherKind::kGraph) {
-    return Fail(ErrorCode::kBadOption, "--near and --room go with --matcher wall; the graph matcher takes no hints");
-  }
-  if (const std::string wrong = hint.Check(); !wrong.empty()) return Fail(ErrorCode::kBadOption, InFlags(wrong));
-  return hint;
 }
 
 // Before hours of work: can the results be written?
@@ -281,21 +123,70 @@ Expected<void> PrepareOutput(const std::string& folder) {
   return {};
 }
 
-Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
-  if (!(flags.tolerance_deg >= 0)) return session.Fail({ErrorCode::kBadOption, fmt::format("--tolerance-angle {}; must be >= 0", flags.tolerance_deg)});
+// The options with what the flags say; an empty text, or what is wrong with them.
+std::string CompleteOptions(LocalizeFlags& flags) {
+  if (!(flags.tolerance_deg >= 0)) return fmt::format("--tolerance-angle {}; must be >= 0", flags.tolerance_deg);
+  if (!(flags.map_voxel_m > 0)) return fmt::format("--map-voxel {}; must be positive", flags.map_voxel_m);
+  if (flags.options.matcher_kind == runtime::MatcherKind::kGraph && !(flags.near_m.empty() && flags.rooms.empty())) {
+    return "--near and --room go with --matcher wall; the graph matcher takes no hints";
+  }
   flags.options.deviations.min_yaw_rad = flags.tolerance_deg * std::numbers::pi / 180;
   flags.replay.given_odometry = !flags.no_odometry;
   for (const std::string& wrong : {flags.options.Check(), flags.replay.Check()}) {
-    if (!wrong.empty()) return session.Fail({ErrorCode::kBadOption, InFlags(wrong)});
+    if (!wrong.empty()) return InFlags(wrong);
   }
-  if (!(flags.map_voxel_m > 0)) return session.Fail({ErrorCode::kBadOption, fmt::format("--map-voxel {}; must be positive", flags.map_voxel_m)});
+  return {};
+}
+
+void SayNotLocalized(const std::string& folder, const RunInfo& info, const ReplayResults& results, const runtime::Localizer& localizer,
+                     Console& console) {
+  console.Info(fmt::format("{}: not localized in {} scans: {}", folder, info.scans, info.last_reason));
+  if (localizer.T_plan_map()) return;
+  if (!results.tries.empty() && results.tries.back().guidance) console.Info(Advice(*results.tries.back().guidance));
+  console.Info(fmt::format(
+      "{}/hypotheses.json lists where it could be; drive through more rooms, or say --near or --room. If that does not help: another "
+      "plan or storey? `plumb validate` looks at the plan, `plumb doctor` at the recording",
+      folder));
+}
+
+void SayLocalized(const LocalizeFlags& flags, const RunInfo& info, Console& console) {
+  console.Info(
+      fmt::format("{}: localized after {:.1f} s, {} of {} scans; {} walls deviate, {} are missing, {} unplanned; {:.0f} ms per scan",
+                  flags.output, *info.time_to_localize_s, info.localized_scans, info.scans, info.deviated_walls, info.missing_walls,
+                  info.unplanned_walls, info.ms_per_scan));
+  if (flags.options.joint.mode == runtime::EstimationMode::kIs)
+    console.Info("mode is: every wall is taken to stand as planned; deviations are not looked for");
+  if (info.pace) {
+    console.Info(fmt::format("{}: poses {:.0f} ms after their scan (99 %: {:.0f} ms); {} keyframes solved later, {} scans not mapped",
+                             flags.output, info.pace->latency_p50_ms, info.pace->latency_p99_ms, info.pace->held_solves,
+                             info.pace->unmapped_scans));
+  }
+}
+
+// What came of it, and the exit status that says so.
+Status Conclude(const LocalizeFlags& flags, const RunInfo& info, const ReplayResults& results, const runtime::Localizer& localizer,
+                size_t num_scans, Console& console) {
+  if (info.interrupted)
+    console.Error(fmt::format("interrupted after {} of {} scans; {} has what was known by then", info.scans, num_scans, flags.output));
+  if (!info.time_to_localize_s) {
+    SayNotLocalized(flags.output, info, results, localizer, console);
+    return Status::kFindings;
+  }
+  SayLocalized(flags, info, console);
+  if (!localizer.T_plan_map()) {
+    console.Error(fmt::format("{}: lost at the end of the recording: what was seen since then has no place in the plan", flags.output));
+    return Status::kFindings;
+  }
+  return results.unreadable_scans == 0 && !results.interrupted ? Status::kFine : Status::kFindings;
+}
+
+Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
+  if (const std::string wrong = CompleteOptions(flags); !wrong.empty()) return session.Fail({ErrorCode::kBadOption, wrong});
   const auto plan = ReadAGraphFile(flags.plan);
   if (!plan) return session.Fail(plan.error());
-  if (const auto hint = HintOf(flags, *plan); hint) {
-    flags.options.hint = *hint;
-  } else {
-    return session.Fail(hint.error());
-  }
+  const auto hint = ParseStartHint(flags.near_m, flags.rooms, *plan);
+  if (!hint) return session.Fail(hint.error());
+  flags.options.hint = *hint;
   const auto recording = runtime::Recording::Open(flags.recording);
   if (!recording) return session.Fail(recording.error());
   if (const auto ready = PrepareOutput(flags.output); !ready) return session.Fail(ready.error());
@@ -305,7 +196,7 @@ Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
   flags.options.on_update = [&updates](const runtime::EstimateUpdate& update) { updates.Write(update); };
   flags.options.update_every_solve = !flags.updates.empty();
 
-  Replayer replayer(*plan, flags);
+  Replayer replayer(*plan, flags.options, flags.replay);
   const auto results = replayer.Run(*recording, session.console);
   if (const auto written = updates.Close(); !written) return session.Fail(written.error());
   if (!results) return session.Fail(results.error());
@@ -314,28 +205,7 @@ Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
   const runtime::DeviationReport report = localizer.Deviations();
   const RunInfo info = Describe(flags, sub, *plan, *results, localizer, report);
   if (const auto written = WriteRun(flags, *plan, *results, localizer, report, info); !written) return session.Fail(written.error());
-  if (info.interrupted) session.console.Error(fmt::format("interrupted after {} of {} scans; {} has what was known by then", info.scans, recording->size(), flags.output));
-  if (!info.time_to_localize_s) {
-    session.console.Info(fmt::format("{}: not localized in {} scans: {}", flags.output, info.scans, info.last_reason));
-    if (localizer.T_plan_map()) return Status::kFindings;
-    if (!results->tries.empty() && results->tries.back().guidance) session.console.Info(Advice(*results->tries.back().guidance));
-    session.console.Info(fmt::format("{}/hypotheses.json lists where it could be; drive through more rooms, or say --near or --room. If that does not help: another "
-                                     "plan or storey? `plumb validate` looks at the plan, `plumb doctor` at the recording", flags.output));
-    return Status::kFindings;
-  }
-  session.console.Info(fmt::format("{}: localized after {:.1f} s, {} of {} scans; {} walls deviate, {} are missing, {} unplanned; {:.0f} ms per scan", flags.output,
-                                   *info.time_to_localize_s, info.localized_scans, info.scans, info.deviated_walls, info.missing_walls,
-                                   info.unplanned_walls, info.ms_per_scan));
-  if (flags.options.joint.mode == runtime::EstimationMode::kIs) session.console.Info("mode is: every wall is taken to stand as planned; deviations are not looked for");
-  if (info.pace) {
-    session.console.Info(fmt::format("{}: poses {:.0f} ms after their scan (99 %: {:.0f} ms); {} keyframes solved later, {} scans not mapped", flags.output,
-                                     info.pace->latency_p50_ms, info.pace->latency_p99_ms, info.pace->held_solves, info.pace->unmapped_scans));
-  }
-  if (!localizer.T_plan_map()) {
-    session.console.Error(fmt::format("{}: lost at the end of the recording: what was seen since then has no place in the plan", flags.output));
-    return Status::kFindings;
-  }
-  return results->unreadable_scans == 0 && !results->interrupted ? Status::kFine : Status::kFindings;
+  return Conclude(flags, info, *results, localizer, recording->size(), session.console);
 }
 
 }  // namespace
@@ -350,7 +220,8 @@ void AddLocalize(CLI::App& app, Session& session) {
   sub->add_option("FILE.agraph", flags->plan, "the plan")->required();
   sub->add_option("REC", flags->recording, "recording folder: scans/*.pcd and, where there is one, odometry.tum")->required();
   sub->add_option("-o,--output", flags->output, "the run folder to write")->required()->type_name("RUN");
-  sub->add_option("--near", flags->near_m, "the robot starts about here, plan frame; SIGMA is 2 unless given, m. A hint: what the robot sees may overrule it")
+  sub->add_option("--near", flags->near_m,
+                  "the robot starts about here, plan frame; SIGMA is 2 unless given, m. A hint: what the robot sees may overrule it")
       ->type_name("X,Y[,SIGMA]");
   sub->add_option("--room", flags->rooms, "the robot starts in a room of this name (or source id); may be given again, for either. A hint")
       ->type_name("NAME")
@@ -358,23 +229,32 @@ void AddLocalize(CLI::App& app, Session& session) {
   sub->add_flag("--no-odometry", flags->no_odometry, "do without the recording's odometry.tum");
   sub->add_option("--start", flags->replay.start_s, "leave out this much of the recording at its beginning, s");
   sub->add_option("--max-duration", flags->replay.max_duration_s, "stop after this much of the rest; 0: all of it, s");
-  sub->add_option("--threads", flags->replay.threads, "threads to work with; 0: all the machine has. The results are the same for any number");
+  sub->add_option("--threads", flags->replay.threads,
+                  "threads to work with; 0: all the machine has. The results are the same for any number");
   sub->add_option("--rate", flags->replay.rate,
-                  "give scans at this multiple of the pace they were recorded at, as on a robot, and report latencies; 0: as fast as it goes, reproducibly");
+                  "give scans at this multiple of the pace they were recorded at, as on a robot, and report latencies; 0: as fast as it "
+                  "goes, reproducibly");
   sub->add_option_function<std::string>(
-         "--matcher", [flags](const std::string& name) { flags->options.matcher_kind = name == kGraphMatcher ? runtime::MatcherKind::kGraph : runtime::MatcherKind::kWall; },
-         "what finds the robot: wall, walls and rays; graph, rooms and their walls as in the paper, for comparison: needs two rooms with four walls")
-      ->check(CLI::IsMember({kWallMatcher, kGraphMatcher}))->default_str(kWallMatcher);
+         "--matcher",
+         [flags](const std::string& name) {
+           flags->options.matcher_kind = name == kGraphMatcher ? runtime::MatcherKind::kGraph : runtime::MatcherKind::kWall;
+         },
+         "what finds the robot: wall, walls and rays; graph, rooms and their walls as in the paper, for comparison: needs two rooms with "
+         "four walls")
+      ->check(CLI::IsMember({kWallMatcher, kGraphMatcher}))
+      ->default_str(kWallMatcher);
   sub->add_option("--tolerance", o.deviations.min_offset_m, "walls displaced by less are as planned, m");
   sub->add_option("--tolerance-angle", flags->tolerance_deg, "walls turned by less are as planned, deg");
   sub->add_option("--false-discovery-rate", o.deviations.false_discovery_rate, "share of wrong ones among the walls reported");
-  sub->add_option("--accept-probability", o.matcher.accept_probability, "a place in the plan is accepted from this posterior probability on");
+  sub->add_option("--accept-probability", o.matcher.accept_probability,
+                  "a place in the plan is accepted from this posterior probability on");
   sub->add_option_function<std::string>(
          "--mode", [flags](const std::string& name) { flags->options.joint.mode = *runtime::ParseMode(name); },
          "what is estimated: dis all; is no deviations; uc all walls weighted alike; so all at once, with no consensus on the place before")
       ->check(CLI::IsMember(runtime::ModeNames()))->default_str(runtime::ModeName(o.joint.mode));
   sub->add_option("--updates", flags->updates,
-                  "write a line of JSON here after every solve while driving: t, verdict, T_plan_map, changed surfaces. SIGUSR1 writes deviations.json as it is then");
+                  "write a line of JSON here after every solve while driving: t, verdict, T_plan_map, changed surfaces. SIGUSR1 writes "
+                  "deviations.json as it is then");
   sub->add_option("--map-voxel", flags->map_voxel_m, "map.ply keeps one point of each cube with this edge, m");
   sub->callback([flags, sub, &session] { session.status = RunLocalize(*flags, *sub, session); });
 }

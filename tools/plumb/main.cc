@@ -87,14 +87,16 @@ int Parse(CLI::App& app, Session& session, std::vector<std::string> arguments) {
 
 }  // namespace
 
-CLI::App* AddSubcommand(CLI::App& app, Session& session, const std::string& name, const std::string& description, const std::string& examples) {
+CLI::App* AddSubcommand(CLI::App& app, Session& session, const std::string& name, const std::string& description,
+                        const std::string& examples) {
   CLI::App* sub = app.add_subcommand(name, description);
   sub->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)->always_capture_default();
   sub->footer("Examples:\n" + examples + "\nExit status: 0 fine, 1 findings, 2 bad input or usage, 3 internal error.");
   sub->add_option_function<std::string>("--config", [](const std::string&) {}, "TOML file with options under the names of these flags")
       ->type_name("FILE");
   sub->add_flag_callback("--print-config", [sub] { throw PrintConfigRequest{sub}; }, "print the options in force as TOML, and stop");
-  sub->add_flag_function("-q,--quiet", [&session](int64_t count) { session.console.set_quiet(count > 0); }, "say nothing but results and errors");
+  sub->add_flag_function(
+      "-q,--quiet", [&session](int64_t count) { session.console.set_quiet(count > 0); }, "say nothing but results and errors");
   return sub;
 }
 

@@ -1,11 +1,6 @@
 #include "tools/plumb/match_rows.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
-#include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "schema/polygon.h"
 
@@ -13,6 +8,7 @@ namespace plumb::tools {
 namespace {
 
 constexpr double kLeastProbability = 1e-3;  // of the best one's
+constexpr double kOpen = 100;               // m or rad: a direction that nothing measures has a sigma beyond
 
 const char* VerdictName(runtime::MatchResult::Verdict verdict) {
   switch (verdict) {
@@ -30,8 +26,8 @@ HypothesisRow ToRow(const AGraph& plan, const runtime::Hypothesis& h, const Eige
   row.log_likelihood = h.log_likelihood;
   row.position_m = T_plan_lidar.translation();
   row.yaw_rad = std::atan2(T_plan_lidar.linear()(1, 0), T_plan_lidar.linear()(0, 0));
-  row.sigma_xy_m = h.sigma_xy_m;
-  row.sigma_yaw_rad = h.sigma_yaw_rad;
+  if (h.sigma_xy_m < kOpen) row.sigma_xy_m = h.sigma_xy_m;
+  if (h.sigma_yaw_rad < kOpen) row.sigma_yaw_rad = h.sigma_yaw_rad;
   if (h.storey.valid()) row.storey = plan.storeys[h.storey.index()].name;
   if (const RoomId room = RoomAt(plan, row.position_m); room.valid()) {
     row.room = room;
@@ -41,6 +37,7 @@ HypothesisRow ToRow(const AGraph& plan, const runtime::Hypothesis& h, const Eige
   row.consistent_ratio = h.consistent_ratio;
   row.explained_ratio = h.explained_ratio;
   row.through_ratio = h.through_ratio;
+  row.in_front_ratio = h.in_front_ratio;
   return row;
 }
 
@@ -71,20 +68,6 @@ TryRow ToRow(const AGraph& plan, const runtime::MatchTry& attempt) {
     row.hypotheses.push_back(ToRow(plan, h, attempt.T_map_lidar));
   }
   return row;
-}
-
-std::string Advice(const GuidanceRow& guidance) {
-  const std::string places = fmt::format("{} places look alike", guidance.rivals + 1);
-  if (!guidance.drive_to) return places + "; no room in reach tells them apart: say where the robot starts (--near, --room)";
-  const DriveToRow& d = *guidance.drive_to;
-  const double bearing_deg = d.bearing_rad * 180 / std::numbers::pi;
-  std::vector<std::string> names;
-  for (const std::string& name : d.room_names) {
-    const std::string quoted = name.empty() ? "no room" : fmt::format("`{}`", name);
-    if (std::find(names.begin(), names.end(), quoted) == names.end()) names.push_back(quoted);
-  }
-  return fmt::format("{}; drive into the room {:.0f} m away, first {:.0f} degrees to the {}: it tells {} of them from the best (it may be {})", places,
-                     d.distance_m, std::abs(bearing_deg), bearing_deg < 0 ? "right" : "left", d.rivals_split, fmt::join(names, " or "));
 }
 
 }  // namespace plumb::tools

@@ -10,7 +10,4 @@ namespace plumb::tools {
 // Places of less than a thousandth of the best one's probability are left out.
 [[nodiscard]] TryRow ToRow(const AGraph& plan, const runtime::MatchTry& attempt);
 
-// What a person does to have the places told apart, in a sentence.
-[[nodiscard]] std::string Advice(const GuidanceRow& guidance);
-
 }  // namespace plumb::tools

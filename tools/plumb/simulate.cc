@@ -51,9 +51,13 @@ Expected<SimulateOptions> OptionsOf(const SimulateFlags& flags) {
   const auto translation = ParseRange(flags.translation), rotation = ParseRange(flags.rotation_deg);
   if (!translation) return Fail(ErrorCode::kBadOption, fmt::format("--translation {}; must be LEAST:MOST in metres", flags.translation));
   if (!rotation) return Fail(ErrorCode::kBadOption, fmt::format("--rotation {}; must be LEAST:MOST in degrees", flags.rotation_deg));
-  const auto within = [](const std::pair<double, double>& range, double most) { return range.first >= 0 && range.second >= range.first && range.second <= most; };
-  if (!within(*translation, 2)) return Fail(ErrorCode::kBadOption, fmt::format("--translation {}; must be within 0:2 m, the least first", flags.translation));
-  if (!within(*rotation, 30)) return Fail(ErrorCode::kBadOption, fmt::format("--rotation {}; must be within 0:30 deg, the least first", flags.rotation_deg));
+  const auto within = [](const std::pair<double, double>& range, double most) {
+    return range.first >= 0 && range.second >= range.first && range.second <= most;
+  };
+  if (!within(*translation, 2))
+    return Fail(ErrorCode::kBadOption, fmt::format("--translation {}; must be within 0:2 m, the least first", flags.translation));
+  if (!within(*rotation, 30))
+    return Fail(ErrorCode::kBadOption, fmt::format("--rotation {}; must be within 0:30 deg, the least first", flags.rotation_deg));
   constexpr double kRadPerDeg = std::numbers::pi / 180;
   std::tie(options.min_translation_m, options.max_translation_m) = *translation;
   options.min_rotation_rad = rotation->first * kRadPerDeg;
@@ -79,15 +83,18 @@ Status RunSimulate(const SimulateFlags& flags, Session& session) {
   const auto options = OptionsOf(flags);
   if (!options) return session.Fail(options.error());
   if (!flags.force && HoldsARecordingOfOthers(flags.output)) {
-    return session.Fail({ErrorCode::kBadOption, fmt::format("`{}` holds a recording that no simulation wrote (it has no truth.json); --force replaces it", flags.output)});
+    return session.Fail(
+        {ErrorCode::kBadOption,
+         fmt::format("`{}` holds a recording that no simulation wrote (it has no truth.json); --force replaces it", flags.output)});
   }
   const auto plan = ReadAGraphFile(flags.plan);
   if (!plan) return session.Fail(plan.error());
   const auto done = Simulate(*plan, *options, flags.output, [&](size_t i, size_t n) { session.console.Progress("simulating", i, n); });
   if (!done) return session.Fail(done.error());
-  session.console.Info(fmt::format("{}: {} scans in {:.1f} s over {:.1f} m, {} of {} rooms visited, {} walls off their plan, {} missing, {} unplanned", flags.output, done->scans,
-                                   done->duration_s, done->path_m, done->visited.size(), done->visited.size() + done->not_visited.size(),
-                                   done->walls.size(), done->missing.size(), done->unplanned.size()));
+  session.console.Info(
+      fmt::format("{}: {} scans in {:.1f} s over {:.1f} m, {} of {} rooms visited, {} walls off their plan, {} missing, {} unplanned",
+                  flags.output, done->scans, done->duration_s, done->path_m, done->visited.size(),
+                  done->visited.size() + done->not_visited.size(), done->walls.size(), done->missing.size(), done->unplanned.size()));
   return Status::kFine;
 }
 
@@ -96,15 +103,17 @@ Status RunSimulate(const SimulateFlags& flags, Session& session) {
 void AddSimulate(CLI::App& app, Session& session) {
   auto flags = std::make_shared<SimulateFlags>();
   SimulateOptions& o = flags->options;
-  CLI::App* sub = AddSubcommand(app, session, kSimulateName, kSimulateSummary,
-                                "  plumb simulate house.agraph --seed 1 --deviate 3 --translation 0.05:0.35 --rotation 0:5 --sensor vlp16 -o rec/\n"
-                                "  plumb simulate house.agraph --deviate 0 --duration 60 --max-duration 60 -o short/");
+  CLI::App* sub =
+      AddSubcommand(app, session, kSimulateName, kSimulateSummary,
+                    "  plumb simulate house.agraph --seed 1 --deviate 3 --translation 0.05:0.35 --rotation 0:5 --sensor vlp16 -o rec/\n"
+                    "  plumb simulate house.agraph --deviate 0 --duration 60 --max-duration 60 -o short/");
   std::string sensors;
   for (const std::string& name : SensorNames()) sensors += (sensors.empty() ? "" : ", ") + name;
   sub->add_option("FILE.agraph", flags->plan, "the plan")->required();
   sub->add_option("-o,--output", flags->output, "the recording folder to write")->required()->type_name("REC");
   sub->add_option("--seed", o.seed, "of all random numbers; same seed, same recording");
-  sub->add_option("--deviate", flags->deviate, "walls that are built off the plan: their number, or a share of those that may be (25%), as far as they can")
+  sub->add_option("--deviate", flags->deviate,
+                  "walls that are built off the plan: their number, or a share of those that may be (25%), as far as they can")
       ->type_name("N|N%");
   sub->add_option("--missing", o.missing, "number of planned walls that are not built");
   sub->add_option("--unplanned", o.unplanned, "number of walls that are built and not in the plan");

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <iterator>
 #include <map>
-#include <set>
 #include <numbers>
+#include <set>
 #include <tuple>
 
 #include "tools/drawing/floor_plan.h"
@@ -29,7 +29,8 @@ int Gravity(const SurfaceEntry& s) {
 std::pair<Vector2d, Vector2d> EndDisplacements(const Surface& s, const SurfaceEntry& entry) {
   const double angle_rad = entry.rotation_deg * std::numbers::pi / 180;
   const Vector2d half = 0.5 * (s.end - s.start), shift = entry.translation_m * s.normal.head<2>();
-  const Vector2d turned(std::cos(angle_rad) * half.x() - std::sin(angle_rad) * half.y(), std::sin(angle_rad) * half.x() + std::cos(angle_rad) * half.y());
+  const Vector2d turned(std::cos(angle_rad) * half.x() - std::sin(angle_rad) * half.y(),
+                        std::sin(angle_rad) * half.x() + std::cos(angle_rad) * half.y());
   return {shift - turned + half, shift + turned - half};
 }
 
@@ -58,9 +59,10 @@ struct DeviatedLayers {
 
 void AddDeviated(const Surface& s, const SurfaceEntry& entry, double limit_m, const Sheet& sheet, DeviatedLayers& layers) {
   const auto [start, end] = EndDisplacements(s, entry);
-  const std::string data = fmt::format("style=\"--dev:{}\" data-a=\"{}\" data-b=\"{}\" data-da=\"{} {}\" data-db=\"{} {}\"",
-                                       DeviationColor(entry.translation_m, limit_m), sheet.At(s.start), sheet.At(s.end), Decimal(sheet.Length(start.x())),
-                                       Decimal(-sheet.Length(start.y())), Decimal(sheet.Length(end.x())), Decimal(-sheet.Length(end.y())));
+  const std::string data =
+      fmt::format("style=\"--dev:{}\" data-a=\"{}\" data-b=\"{}\" data-da=\"{} {}\" data-db=\"{} {}\"",
+                  DeviationColor(entry.translation_m, limit_m), sheet.At(s.start), sheet.At(s.end), Decimal(sheet.Length(start.x())),
+                  Decimal(-sheet.Length(start.y())), Decimal(sheet.Length(end.x())), Decimal(-sheet.Length(end.y())));
   const std::string area = sheet.Closed({s.start, s.end, s.end + end, s.start + start});
   if (entry.translation_m > 0) {
     layers.wall_now += fmt::format("<path class=\"dev wall-now\" d=\"{}\" {}/>\n", area, data);
@@ -84,7 +86,8 @@ std::vector<WallRow> WallRows(const AGraph& graph, const Deviations& deviations)
   std::vector<WallRow> rows;
   for (const auto& [wall, surface] : speakers) rows.push_back({wall, surface, 0});
   std::stable_sort(rows.begin(), rows.end(), [](const WallRow& a, const WallRow& b) {
-    return std::tuple(Gravity(*a.surface), std::abs(a.surface->translation_m)) > std::tuple(Gravity(*b.surface), std::abs(b.surface->translation_m));
+    return std::tuple(Gravity(*a.surface), std::abs(a.surface->translation_m)) >
+           std::tuple(Gravity(*b.surface), std::abs(b.surface->translation_m));
   });
   for (size_t i = 0; i < rows.size() && Deviates(*rows[i].surface); ++i) rows[i].number = static_cast<int>(i) + 1;
   return rows;
@@ -121,7 +124,8 @@ std::string DrawSurfaces(const AGraph& graph, StoreyId storey, const Deviations&
     const Surface& s = graph.surfaces[entry.id.index()];
     if (s.storey != storey) continue;
     if (entry.status == "missing") {
-      if (outlined.insert(s.wall).second) missing += fmt::format("<path class=\"missing\" d=\"{}\"/>\n", sheet.Closed(Footprint(graph.walls[s.wall.index()])));
+      if (outlined.insert(s.wall).second)
+        missing += fmt::format("<path class=\"missing\" d=\"{}\"/>\n", sheet.Closed(Footprint(graph.walls[s.wall.index()])));
     } else if (entry.status == "deviated") {
       AddDeviated(s, entry, limit_m, sheet, deviated);
     } else {
@@ -152,11 +156,11 @@ std::string DrawWallNumbers(const AGraph& graph, StoreyId storey, const std::vec
     const std::string color = row.surface->status == "missing" ? kMissingColor : DeviationColor(row.surface->translation_m, 0.01);
     const std::string amount =
         row.surface->status == "missing" ? std::string("missing") : Signed(100 * row.surface->translation_m, 1) + " cm";
-    fmt::format_to(std::back_inserter(out),
-                   "<g class=\"tag\" style=\"--dev:{}\"><circle cx=\"{}\" cy=\"{}\" r=\"16\"/><text x=\"{}\" y=\"{}\" font-size=\"19\">{}</text>"
-                   "<text class=\"amount\" x=\"{}\" y=\"{}\" font-size=\"18\">{}</text></g>\n",
-                   color, Decimal(x), Decimal(y), Decimal(x), Decimal(y + 6.5), row.number, Decimal(x),
-                   Decimal(y + 36), amount);
+    fmt::format_to(
+        std::back_inserter(out),
+        "<g class=\"tag\" style=\"--dev:{}\"><circle cx=\"{}\" cy=\"{}\" r=\"16\"/><text x=\"{}\" y=\"{}\" font-size=\"19\">{}</text>"
+        "<text class=\"amount\" x=\"{}\" y=\"{}\" font-size=\"18\">{}</text></g>\n",
+        color, Decimal(x), Decimal(y), Decimal(x), Decimal(y + 6.5), row.number, Decimal(x), Decimal(y + 36), amount);
   }
   return out;
 }

@@ -21,7 +21,8 @@ inline constexpr const char* kMissingColor = "#d32f2f";
 
 [[nodiscard]] bool Deviates(const SurfaceEntry& surface);  // deviated or missing
 
-// Deviated walls by size, then missing ones, then the others by size, unobserved ones last. Points into `deviations`, whose surface ids must exist in `graph`.
+// Deviated walls by size, then missing ones, then the others by size, unobserved ones last. Points into `deviations`, whose surface ids
+// must exist in `graph`.
 [[nodiscard]] std::vector<WallRow> WallRows(const AGraph& graph, const Deviations& deviations);
 
 // Full scale of the colours: the largest deviation, up to the next 5 cm; at least 10 cm.
@@ -30,7 +31,8 @@ inline constexpr const char* kMissingColor = "#d32f2f";
 [[nodiscard]] std::string DeviationStyle();
 
 // Layers for one storey. Deviated surfaces carry what the page's script needs to exaggerate them.
-[[nodiscard]] std::string DrawSurfaces(const AGraph& graph, StoreyId storey, const Deviations& deviations, double limit_m, const Sheet& sheet);
+[[nodiscard]] std::string DrawSurfaces(const AGraph& graph, StoreyId storey, const Deviations& deviations, double limit_m,
+                                       const Sheet& sheet);
 // Walls that are in no plan.
 [[nodiscard]] std::string DrawUnplanned(const AGraph& graph, StoreyId storey, const Deviations& deviations, const Sheet& sheet);
 [[nodiscard]] std::string DrawWallNumbers(const AGraph& graph, StoreyId storey, const std::vector<WallRow>& rows, const Sheet& sheet);

@@ -8,12 +8,13 @@
 #include <iterator>
 #include <set>
 
-#include "tools/report/deviation_overlay.h"
 #include "tools/drawing/floor_plan.h"
 #include "tools/drawing/plan_sheet.h"
 #include "tools/drawing/room_labels.h"
-#include "tools/report/report_page.h"
 #include "tools/drawing/svg.h"
+#include "tools/report/deviation_overlay.h"
+#include "tools/report/place_overlay.h"
+#include "tools/report/report_page.h"
 #include "tools/report/trajectory_overlay.h"
 
 namespace plumb::tools {
@@ -30,7 +31,9 @@ std::string Tile(const std::string& value, const std::string& label) {
 }
 
 std::string Tiles(const RunInfo& info, const Deviations& deviations, const std::vector<WallRow>& rows) {
-  const auto count = [&](const char* status) { return std::count_if(rows.begin(), rows.end(), [&](const WallRow& r) { return r.surface->status == status; }); };
+  const auto count = [&](const char* status) {
+    return std::count_if(rows.begin(), rows.end(), [&](const WallRow& r) { return r.surface->status == status; });
+  };
   const auto deviated = count("deviated"), observed = deviated + count("as_planned");
   std::string out = "<div class=\"tiles\">\n";
   out += Tile(info.time_to_localize_s ? fmt::format("{:.1f} s", *info.time_to_localize_s) : "never", "until localized");
@@ -55,28 +58,42 @@ std::string Notes(const RunInfo& info, const Deviations& deviations) {
   }
   if (info.interrupted) out += "<p class=\"note bad\">The run was interrupted: only a part of the recording was used.</p>\n";
   if (info.untimed_scans > 0) {
-    out += fmt::format("<p class=\"note bad\">{} of {} scans had no usable time per point: walls seen while the robot turned are bent, by centimetres and "
-                       "degrees.</p>\n", info.untimed_scans, info.scans);
+    out += fmt::format(
+        "<p class=\"note bad\">{} of {} scans had no usable time per point: walls seen while the robot turned are bent, by centimetres and "
+        "degrees.</p>\n",
+        info.untimed_scans, info.scans);
   }
   if (info.unreadable_scans > 0) out += fmt::format("<p class=\"note bad\">{} scans could not be read.</p>\n", info.unreadable_scans);
   if (!deviations.gauge.empty()) out += fmt::format("<p class=\"note\">{}</p>\n", EscapeXml(deviations.gauge));
   return out;
 }
 
+// The try whose places are worth showing: the last one of a run that has no place.
+const TryRow* OpenTry(const Run& run) {
+  const bool found = std::any_of(run.verdicts.begin(), run.verdicts.end(), [](const VerdictRow& v) { return v.verdict == "localized"; });
+  return found || run.tries.empty() ? nullptr : &run.tries.back();
+}
+
 std::string Figure(const AGraph& plan, StoreyId storey, const Run& run, const std::vector<WallRow>& rows, double limit_m) {
   const Sheet sheet = SheetOf(plan, storey);
+  const TryRow* open = OpenTry(run);
   return fmt::format(
       "<figure><figcaption>{}</figcaption>\n<svg class=\"plan\" viewBox=\"0 0 {} {}\" role=\"img\" aria-label=\"floor plan\">\n"
       "<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n{}<g class=\"layer-surfaces\">\n{}</g>\n<g class=\"layer-way\">\n{}</g>\n"
       "<g class=\"layer-rooms\">\n{}</g>\n<g class=\"layer-surfaces\">\n{}</g>\n{}</svg></figure>\n",
       EscapeXml(plan.storeys[storey.index()].name), Decimal(sheet.width()), Decimal(sheet.height()), DrawFloorPlan(plan, storey, sheet),
-      DrawSurfaces(plan, storey, run.deviations, limit_m, sheet) + DrawUnplanned(plan, storey, run.deviations, sheet), DrawTrajectory(plan, storey, run, sheet), DrawRoomLabels(plan, storey, sheet),
-      DrawWallNumbers(plan, storey, rows, sheet), DrawScaleBar(sheet, 30, sheet.height() - 45));
+      DrawSurfaces(plan, storey, run.deviations, limit_m, sheet) + DrawUnplanned(plan, storey, run.deviations, sheet),
+      DrawTrajectory(plan, storey, run, sheet) + (open ? DrawPlaces(plan, storey, *open, sheet) : ""), DrawRoomLabels(plan, storey, sheet), DrawWallNumbers(plan, storey, rows, sheet),
+      DrawScaleBar(sheet, 30, sheet.height() - 45));
 }
 
-// Storeys that the robot was on; all of them where its way is not known.
+// Storeys that the robot was or may be on; all of them where nothing is known.
 std::set<StoreyId> VisitedStoreys(const AGraph& plan, const Run& run) {
   std::set<StoreyId> visited;
+  if (const TryRow* open = OpenTry(run)) {
+    for (const HypothesisRow& h : open->hypotheses) visited.insert(StoreyAt(plan, h.position_m.z()));
+    if (!visited.empty()) return visited;
+  }
   for (const auto& pose : run.smoothed) visited.insert(StoreyAt(plan, pose.T.translation().z()));
   for (size_t i = 0; run.smoothed.empty() && i < plan.storeys.size(); ++i) visited.insert(StoreyId(i));
   return visited;
@@ -111,15 +128,17 @@ std::string WallRowHtml(const AGraph& plan, const WallRow& row) {
       row.number > 0 ? fmt::format("<span class=\"chip\" style=\"background:{}\">{}</span>",
                                    s.status == "missing" ? kMissingColor : DeviationColor(s.translation_m, 0.01), row.number) : "";
   if (s.status == "missing") {
-    return fmt::format("<tr class=\"off\"><td class=\"t\">{}</td><td class=\"t\">{}<small>{}</small></td><td class=\"t\">{}</td><td class=\"t\">missing"
-                       "<small>{:.0f} lines of sight go through</small></td><td></td><td></td><td></td><td>{:.1f}</td><td></td></tr>\n",
-                       chip, EscapeXml(wall.name), EscapeXml(s.wall_guid), storey, s.points, s.observed_m2);
+    return fmt::format(
+        "<tr class=\"off\"><td class=\"t\">{}</td><td class=\"t\">{}<small>{}</small></td><td class=\"t\">{}</td><td class=\"t\">missing"
+        "<small>{:.0f} lines of sight go through</small></td><td></td><td></td><td></td><td>{:.1f}</td><td></td></tr>\n",
+        chip, EscapeXml(wall.name), EscapeXml(s.wall_guid), storey, s.points, s.observed_m2);
   }
   return fmt::format(
       "<tr{}><td class=\"t\">{}</td><td class=\"t\">{}<small>{}</small></td><td class=\"t\">{}</td><td class=\"t\">{}</td>"
       "<td>{} &plusmn; {:.1f}<small>{}</small></td><td>{} &plusmn; {:.2f}</td><td>{:.3f}</td><td>{:.1f}</td><td>{:.0f}</td></tr>\n",
       row.number > 0 ? " class=\"off\"" : "", chip, EscapeXml(wall.name), EscapeXml(s.wall_guid), storey, StatusText(s.status),
-      Signed(100 * s.translation_m, 1), 100 * s.sigma_translation_m, row.number > 0 ? Sense(plan, s) : "", Signed(s.rotation_deg, 2), s.sigma_rotation_deg, s.p_deviated, s.observed_m2, s.points);
+      Signed(100 * s.translation_m, 1), 100 * s.sigma_translation_m, row.number > 0 ? Sense(plan, s) : "", Signed(s.rotation_deg, 2),
+      s.sigma_rotation_deg, s.p_deviated, s.observed_m2, s.points);
 }
 
 std::string WallTable(const AGraph& plan, const std::vector<WallRow>& rows) {
@@ -133,10 +152,15 @@ std::string WallTable(const AGraph& plan, const std::vector<WallRow>& rows) {
     }
   }
   const std::string rest =
-      unobserved == 0 ? "" : fmt::format("<p class=\"note\">Walls that were not observed well enough to judge: {} of {}.</p>\n", unobserved, rows.size());
+      unobserved == 0
+          ? ""
+          : fmt::format("<p class=\"note\">Walls that were not observed well enough to judge: {} of {}.</p>\n", unobserved, rows.size());
+  if (body.empty()) return "<h2>Walls</h2>\n" + rest;
   return fmt::format(
-      "<h2>Walls</h2>\n<div class=\"scroll\"><table><thead><tr><th class=\"t\"></th><th class=\"t\">wall</th><th class=\"t\">storey</th><th class=\"t\">"
-      "verdict</th><th>displacement &plusmn; &sigma;, cm</th><th>turn &plusmn; &sigma;, &deg;</th><th>P(deviated)</th><th>seen, m&sup2;</th><th>points</th>"
+      "<h2>Walls</h2>\n<div class=\"scroll\"><table><thead><tr><th class=\"t\"></th><th class=\"t\">wall</th><th "
+      "class=\"t\">storey</th><th class=\"t\">"
+      "verdict</th><th>displacement &plusmn; &sigma;, cm</th><th>turn &plusmn; &sigma;, &deg;</th><th>P(deviated)</th><th>seen, "
+      "m&sup2;</th><th>points</th>"
       "</tr></thead><tbody>\n{}</tbody></table></div>\n{}",
       body, rest);
 }
@@ -151,13 +175,16 @@ std::string UnplannedTable(const AGraph& plan, const Deviations& deviations) {
       longest_m = std::max(longest_m, (wall.polygon[(i + 1) % wall.polygon.size()] - wall.polygon[i]).norm());
     }
     const Room* room = wall.room.valid() ? &plan.rooms[wall.room.index()] : nullptr;
-    fmt::format_to(std::back_inserter(body), "<tr class=\"off\"><td class=\"t\">{}</td><td class=\"t\">{}</td><td>{:.2f}, {:.2f}</td><td>{:.2f}</td><td>{:.2f}</td></tr>\n",
-                   room ? EscapeXml(room->name) : "", room && room->storey.valid() ? EscapeXml(plan.storeys[room->storey.index()].name) : "", middle.x(),
-                   middle.y(), longest_m, wall.height_m);
+    fmt::format_to(
+        std::back_inserter(body),
+        "<tr class=\"off\"><td class=\"t\">{}</td><td class=\"t\">{}</td><td>{:.2f}, {:.2f}</td><td>{:.2f}</td><td>{:.2f}</td></tr>\n",
+        room ? EscapeXml(room->name) : "", room && room->storey.valid() ? EscapeXml(plan.storeys[room->storey.index()].name) : "",
+        middle.x(), middle.y(), longest_m, wall.height_m);
   }
   if (body.empty()) return {};
   return fmt::format(
-      "<h2>Walls in no plan</h2>\n<div class=\"scroll\"><table><thead><tr><th class=\"t\">in room</th><th class=\"t\">storey</th><th>middle x, y, m</th>"
+      "<h2>Walls in no plan</h2>\n<div class=\"scroll\"><table><thead><tr><th class=\"t\">in room</th><th "
+      "class=\"t\">storey</th><th>middle x, y, m</th>"
       "<th>length, m</th><th>seen up to, m</th></tr></thead><tbody>\n{}</tbody></table></div>\n",
       body);
 }
@@ -167,28 +194,33 @@ std::string RoomTable(const AGraph& plan, const Deviations& deviations) {
   for (const RoomEntry& r : deviations.rooms) {
     if (r.status == "unobserved") continue;
     const Room& room = plan.rooms[r.id.index()];
-    fmt::format_to(std::back_inserter(body),
-                   "<tr{}><td class=\"t\">{}</td><td class=\"t\">{}</td><td class=\"t\">{}</td><td>{:.2f}</td><td>{}, {}</td><td>{:.1f}</td>"
-                   "<td>{}</td></tr>\n",
-                   r.status == "as_planned" ? "" : " class=\"off\"", EscapeXml(room.name),
-                   room.storey.valid() ? EscapeXml(plan.storeys[room.storey.index()].name) : "", StatusText(r.status), room.area_m2,
-                   Signed(100 * r.translation_m.x(), 1), Signed(100 * r.translation_m.y(), 1), 100 * r.sigma_m, Signed(r.rotation_deg, 2));
+    fmt::format_to(
+        std::back_inserter(body),
+        "<tr{}><td class=\"t\">{}</td><td class=\"t\">{}</td><td class=\"t\">{}</td><td>{:.2f}</td><td>{}, {}</td><td>{:.1f}</td>"
+        "<td>{}</td></tr>\n",
+        r.status == "as_planned" ? "" : " class=\"off\"", EscapeXml(room.name),
+        room.storey.valid() ? EscapeXml(plan.storeys[room.storey.index()].name) : "", StatusText(r.status), room.area_m2,
+        Signed(100 * r.translation_m.x(), 1), Signed(100 * r.translation_m.y(), 1), 100 * r.sigma_m, Signed(r.rotation_deg, 2));
   }
   if (body.empty()) return {};
   return fmt::format(
-      "<h2>Rooms</h2>\n<div class=\"scroll\"><table><thead><tr><th class=\"t\">room</th><th class=\"t\">storey</th><th class=\"t\">verdict</th>"
-      "<th>planned area, m&sup2;</th><th>moved x, y, cm</th><th>&sigma;, cm</th><th>turn, &deg;</th></tr></thead><tbody>\n{}</tbody></table></div>\n",
+      "<h2>Rooms</h2>\n<div class=\"scroll\"><table><thead><tr><th class=\"t\">room</th><th class=\"t\">storey</th><th "
+      "class=\"t\">verdict</th>"
+      "<th>planned area, m&sup2;</th><th>moved x, y, cm</th><th>&sigma;, cm</th><th>turn, "
+      "&deg;</th></tr></thead><tbody>\n{}</tbody></table></div>\n",
       body);
 }
 
 std::string Footer(const RunInfo& info) {
   std::string options;
-  for (const Option& o : info.options) fmt::format_to(std::back_inserter(options), "{}{} = {}", options.empty() ? "" : ", ", o.name, o.value);
+  for (const Option& o : info.options)
+    fmt::format_to(std::back_inserter(options), "{}{} = {}", options.empty() ? "" : ", ", o.name, o.value);
   return fmt::format(
-      "<footer><dl><dt>plan</dt><dd>{}</dd><dt>drawn in</dt><dd>{}</dd><dt>SHA-256 of the drawing</dt><dd>{}</dd><dt>recording</dt><dd>{}</dd>"
+      "<footer><dl><dt>plan</dt><dd>{}</dd><dt>drawn in</dt><dd>{}</dd><dt>SHA-256 of the "
+      "drawing</dt><dd>{}</dd><dt>recording</dt><dd>{}</dd>"
       "<dt>options</dt><dd>{}</dd><dt>made by</dt><dd>plumb {}</dd></dl></footer>\n",
-      EscapeXml(info.plan_path), EscapeXml(info.plan_source), EscapeXml(info.plan_source_sha256), EscapeXml(info.recording_path), EscapeXml(options),
-      EscapeXml(info.plumb_version));
+      EscapeXml(info.plan_path), EscapeXml(info.plan_source), EscapeXml(info.plan_source_sha256), EscapeXml(info.recording_path),
+      EscapeXml(options), EscapeXml(info.plumb_version));
 }
 
 std::string CheckIds(const AGraph& plan, const Deviations& deviations) {
@@ -208,17 +240,20 @@ std::string CheckIds(const AGraph& plan, const Deviations& deviations) {
 
 Expected<std::string> RunToHtml(const AGraph& plan, const Run& run, const RunInfo& info) {
   if (const std::string id = CheckIds(plan, run.deviations); !id.empty()) {
-    return Fail(ErrorCode::kBadRunFolder, fmt::format("the run's deviations name {}, which the plan does not have: it was made with another plan", id));
+    return Fail(ErrorCode::kBadRunFolder,
+                fmt::format("the run's deviations name {}, which the plan does not have: it was made with another plan", id));
   }
   const std::vector<WallRow> rows = WallRows(plan, run.deviations);
   const std::string title = EscapeXml(std::filesystem::path(info.plan_source).filename().string());
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">\n"
       "<title>{0} as built</title>\n<style>\n{1}{2}{3}{4}</style></head>\n<body>\n<h1>{0}: as built against the plan</h1>\n"
-      "<p class=\"sub\">where the robot was, and how far each wall stands from where the plan has it</p>\n{5}{6}<h2>Plan</h2>\n{7}{8}{9}{10}"
+      "<p class=\"sub\">where the robot was, and how far each wall stands from where the plan has "
+      "it</p>\n{5}{6}<h2>Plan</h2>\n{7}{8}{9}{10}"
       "<script>\n{11}</script>\n</body></html>\n",
-      title, FloorPlanStyle(), DeviationStyle(), TrajectoryStyle(), PageStyle(), Tiles(info, run.deviations, rows), Notes(info, run.deviations),
-      Figures(plan, run, rows), WallTable(plan, rows) + UnplannedTable(plan, run.deviations), RoomTable(plan, run.deviations), Footer(info), PageScript());
+      title, FloorPlanStyle(), DeviationStyle(), TrajectoryStyle() + PlaceStyle(), PageStyle(), Tiles(info, run.deviations, rows),
+      Notes(info, run.deviations), Figures(plan, run, rows) + (OpenTry(run) ? PlacesHtml(*OpenTry(run)) : ""), WallTable(plan, rows) + UnplannedTable(plan, run.deviations),
+      RoomTable(plan, run.deviations), Footer(info), PageScript());
 }
 
 }  // namespace plumb::tools

@@ -36,8 +36,8 @@ std::set<long long> LocalizedMicroseconds(const Run& run) {
 
 std::string Marker(const char* style, const Vector2d& at, const char* label, const Sheet& sheet) {
   const double x = sheet.x(at.x()), y = sheet.y(at.y());
-  return fmt::format("<g class=\"mark {}\"><circle cx=\"{}\" cy=\"{}\" r=\"9\"/><text x=\"{}\" y=\"{}\" font-size=\"17\">{}</text></g>\n", style, Decimal(x),
-                     Decimal(y), Decimal(x), Decimal(y - 15), label);
+  return fmt::format("<g class=\"mark {}\"><circle cx=\"{}\" cy=\"{}\" r=\"9\"/><text x=\"{}\" y=\"{}\" font-size=\"17\">{}</text></g>\n",
+                     style, Decimal(x), Decimal(y), Decimal(x), Decimal(y - 15), label);
 }
 
 Vector2d Position(const runtime::StampedPose& pose) { return pose.T.translation().head<2>(); }

@@ -118,7 +118,8 @@ Expected<std::vector<VerdictRow>> ParseVerdicts(const std::string& csv, const st
   for (size_t line_number = 2; !rest.empty(); ++line_number) {
     const std::string_view line = Take(rest, '\n');
     const auto row = ParseVerdictRow(line);
-    if (!row) return Fail(ErrorCode::kBadRunFolder, fmt::format("`{}:{}`: `{}` is no line of stamp, verdict, count", source, line_number, line));
+    if (!row)
+      return Fail(ErrorCode::kBadRunFolder, fmt::format("`{}:{}`: `{}` is no line of stamp, verdict, count", source, line_number, line));
     rows.push_back(*row);
   }
   return rows;
@@ -134,7 +135,8 @@ Expected<Deviations> ParseDeviations(const std::string& json, const std::string&
     for (const Json& room : root.at("rooms")) out.rooms.push_back(ParseRoom(room));
     for (const Json& wall : root.value("unplanned", Json::array())) {
       out.unplanned.push_back(ParseUnplanned(wall));
-      if (out.unplanned.back().polygon.size() < 3) return Fail(ErrorCode::kBadRunFolder, fmt::format("`{}`: a polygon of `unplanned` has fewer than 3 corners", source));
+      if (out.unplanned.back().polygon.size() < 3)
+        return Fail(ErrorCode::kBadRunFolder, fmt::format("`{}`: a polygon of `unplanned` has fewer than 3 corners", source));
     }
     return out;
   } catch (const Json::exception& e) {
@@ -156,6 +158,12 @@ Expected<Run> ReadRun(const std::string& folder) {
   auto deviations = ParseDeviations(*json, path("deviations.json"));
   if (!deviations) return tl::unexpected(deviations.error());
   run.deviations = std::move(*deviations);
+
+  if (const auto text = ReadFileText(path("hypotheses.json")); text) {
+    auto tries = ParseTries(*text, path("hypotheses.json"));
+    if (!tries) return tl::unexpected(tries.error());
+    run.tries = std::move(*tries);
+  }
 
   auto online = ReadRunTrajectory(path("trajectory.tum"));
   if (!online) return tl::unexpected(online.error());

@@ -1,5 +1,5 @@
 // The folder that `plumb localize` writes and that evaluate and report read: verdicts, timing, deviations.
-// Trajectories are read and written by runtime/sources/recording.h, run.json by run_info.h.
+// Tries are in tries_json.h. Trajectories are read and written by runtime/sources/recording.h, run.json by run_info.h.
 #pragma once
 
 #include <Eigen/Core>
@@ -10,6 +10,7 @@
 #include "runtime/sources/recording.h"
 #include "schema/error.h"
 #include "schema/ids.h"
+#include "tools/run/tries_json.h"
 
 namespace plumb::tools {
 
@@ -69,6 +70,7 @@ struct Run {
   runtime::Trajectory smoothed;  // trajectory_smoothed.tum
   std::vector<VerdictRow> verdicts;
   Deviations deviations;
+  std::vector<TryRow> tries = {};  // hypotheses.json: empty if it is not there
 };
 
 // Errors: kBadRunFolder (not written by `plumb localize`, or a file of it is missing or damaged).

@@ -48,8 +48,11 @@ std::string RunInfoToJson(const RunInfo& info) {
   summary["range_bias_m"] = info.range_bias_m;
   summary["ms_per_scan"] = info.ms_per_scan;
   if (info.pace) {
-    summary["pace"] = {{"rate", info.pace->rate}, {"latency_p50_ms", info.pace->latency_p50_ms}, {"latency_p99_ms", info.pace->latency_p99_ms},
-                       {"held_solves", info.pace->held_solves}, {"unmapped_scans", info.pace->unmapped_scans}};
+    summary["pace"] = {{"rate", info.pace->rate},
+                       {"latency_p50_ms", info.pace->latency_p50_ms},
+                       {"latency_p99_ms", info.pace->latency_p99_ms},
+                       {"held_solves", info.pace->held_solves},
+                       {"unmapped_scans", info.pace->unmapped_scans}};
   }
   summary["matcher"] = info.matcher;
   summary["last_reason"] = info.last_reason;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "schema/error.h"
 #include "schema/ids.h"
 
 namespace plumb::tools {
@@ -16,12 +17,12 @@ struct HypothesisRow {
   double log_likelihood = 0;  // nats, relative to "outside the plan"
   Eigen::Vector3d position_m = Eigen::Vector3d::Zero();  // of the sensor, plan frame, at the try's stamp
   double yaw_rad = 0;
-  double sigma_xy_m = 0, sigma_yaw_rad = 0;
+  std::optional<double> sigma_xy_m, sigma_yaw_rad;  // none: the walls that agree leave it open
   std::string storey;
   std::optional<RoomId> room;  // that it stands in
   std::string room_name;
   int consistent_planes = 0;
-  double consistent_ratio = 0, explained_ratio = 0, through_ratio = 0;  // matcher.h: Hypothesis
+  double consistent_ratio = 0, explained_ratio = 0, through_ratio = 0, in_front_ratio = 0;  // matcher.h: Hypothesis
 };
 
 // Where to drive so that the places are told apart.
@@ -49,5 +50,10 @@ struct TryRow {
 };
 
 [[nodiscard]] std::string TriesToJson(const std::vector<TryRow>& tries);
+// `source` names the file in errors. Errors: kBadRunFolder, with the key.
+[[nodiscard]] Expected<std::vector<TryRow>> ParseTries(const std::string& json, const std::string& source);
+
+// What a person does to have the places told apart, in a sentence.
+[[nodiscard]] std::string Advice(const GuidanceRow& guidance);
 
 }  // namespace plumb::tools

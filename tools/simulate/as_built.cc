@@ -83,7 +83,8 @@ class Builder {
     std::vector<Candidate> candidates = Candidates();
     random_.Shuffle(candidates);
     const bool by_share = options_.deviate_ratio > 0;
-    const auto wanted = static_cast<size_t>(by_share ? std::ceil(options_.deviate_ratio * static_cast<double>(candidates.size())) : options_.deviate);
+    const auto wanted =
+        static_cast<size_t>(by_share ? std::ceil(options_.deviate_ratio * static_cast<double>(candidates.size())) : options_.deviate);
     for (const Candidate& candidate : candidates) {
       if (built_.walls.size() == wanted) break;
       if (LeavesMajority(candidate.wall)) Try(candidate);

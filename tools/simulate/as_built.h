@@ -26,10 +26,10 @@ struct AsBuilt {
   std::vector<Rectangle> passages;         // the floor of the doorways between rooms of the storey
 };
 
-// Moves options.deviate (or deviate_ratio of the) walls that bound a room of the storey with at least 1.5 m. Which ones and how far follows from the seed. In
-// every direction of walls most stay put (so that the plan's frame remains), no wall runs into another, into an opening or away from
-// a joint, every room that could be reached still can, and no ray leaves a room where none left before.
-// Errors: kPlanUnsuitable if there are not so many such walls.
+// Moves options.deviate (or deviate_ratio of the) walls that bound a room of the storey with at least 1.5 m. Which ones and how far follows
+// from the seed. In every direction of walls most stay put (so that the plan's frame remains), no wall runs into another, into an opening
+// or away from a joint, every room that could be reached still can, and no ray leaves a room where none left before. Errors:
+// kPlanUnsuitable if there are not so many such walls.
 [[nodiscard]] Expected<AsBuilt> BuildWithDeviations(const AGraph& plan, StoreyId storey, const SimulateOptions& options);
 
 // What the motion of its wall makes of a surface.

@@ -50,15 +50,18 @@ bool TriangleMeetsBox(const std::array<Eigen::Vector3d, 3>& p, const Eigen::Vect
   return !separated(edges[0].cross(edges[1]));
 }
 
-// The space that people walk through: the opening less a frame on each side and above. In the doorway's own frame, x along the passage.
+// The space that people walk through: the opening less a frame on each side and above, and a threshold below. In the doorway's own frame, x
+// along the passage.
 struct Passage {
   Eigen::Vector3d center, half;
   Eigen::Matrix3d R;
 
   explicit Passage(const Doorway& d, double thickness_m) {
     constexpr double kFrameShare = 0.2;  // of width and height
-    half << 0.5 * thickness_m + 0.2, 0.5 * d.width_m * (1 - kFrameShare), 0.5 * d.height_m * (1 - kFrameShare);
-    center = d.position + Eigen::Vector3d(0, 0, 0.5 * d.height_m);
+    constexpr double kThreshold_m = 0.05;
+    const double top_m = d.height_m * (1 - 0.5 * kFrameShare);
+    half << 0.5 * thickness_m + 0.2, 0.5 * d.width_m * (1 - kFrameShare), 0.5 * (top_m - kThreshold_m);
+    center = d.position + Eigen::Vector3d(0, 0, 0.5 * (top_m + kThreshold_m));
     R = Eigen::AngleAxisd(d.yaw_rad, Eigen::Vector3d::UnitZ()).toRotationMatrix();
   }
 };

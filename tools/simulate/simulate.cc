@@ -48,7 +48,9 @@ Expected<void> PrepareFolder(const fs::path& folder) {
   for (const char* name : {"odometry.tum", "truth.tum", "truth.json"}) old.push_back(folder / name);
   for (const fs::path& path : old) fs::remove(path, error);
   // Tells a simulation that was broken off from scans of others.
-  if (auto written = WriteFileAtomically((folder / "truth.json").string(), std::string_view("{\"version\": 1, \"incomplete\": true}\n")); !written) return written;
+  if (auto written = WriteFileAtomically((folder / "truth.json").string(), std::string_view("{\"version\": 1, \"incomplete\": true}\n"));
+      !written)
+    return written;
   if (error) return Fail(ErrorCode::kFileUnwritable, fmt::format("cannot clear `{}`: {}", (folder / "scans").string(), error.message()));
   return {};
 }
@@ -193,7 +195,8 @@ std::string SimulateOptions::Check() const {
   if (!(speed_m_s >= 0.05 && speed_m_s <= 3)) return bad("speed_m_s", speed_m_s, "from 0.05 to 3");
   if (!(sensor_height_m >= 0.1 && sensor_height_m <= 3)) return bad("sensor_height_m", sensor_height_m, "from 0.1 to 3");
   if (!(min_duration_s >= 0 && min_duration_s <= 36000)) return bad("min_duration_s", min_duration_s, "from 0 to 36000");
-  if (!(max_duration_s >= std::max(1.0, min_duration_s))) return bad("max_duration_s", max_duration_s, ">= 1 and no less than the duration asked for");
+  if (!(max_duration_s >= std::max(1.0, min_duration_s)))
+    return bad("max_duration_s", max_duration_s, ">= 1 and no less than the duration asked for");
   if (!(wobble_rad >= 0 && wobble_rad <= 0.1)) return bad("wobble_rad", wobble_rad, "from 0 to 0.1");
   if (!(glass_transmission >= 0 && glass_transmission <= 1)) return bad("glass_transmission", glass_transmission, "from 0 to 1");
   if (clutter < 0 || clutter > 1000) return bad("clutter", clutter, "from 0 to 1000");
@@ -211,7 +214,8 @@ Expected<SimulateSummary> Simulate(const AGraph& plan, const SimulateOptions& op
   Expected<AsBuilt> built = BuildWithDeviations(plan, summary.storey, options);
   if (!built) return tl::unexpected(built.error());
   summary.walls = built->walls;
-  if (const auto done = LeaveOutWalls(plan, summary.storey, options.missing, options.seed, *built); !done) return tl::unexpected(done.error());
+  if (const auto done = LeaveOutWalls(plan, summary.storey, options.missing, options.seed, *built); !done)
+    return tl::unexpected(done.error());
   if (const auto done = AddWalls(plan, summary.storey, options.unplanned, options.seed, *built); !done) return tl::unexpected(done.error());
   if (options.clutter > 0) summary.boxes = AddClutter(*built, summary.storey, options.clutter, options.seed);
 

@@ -91,8 +91,8 @@ inline constexpr uint32_t kMinScanPoints = 20;
 using SimulateProgress = std::function<void(size_t done, size_t total)>;
 
 // Writes scans/, odometry.tum, truth.tum and truth.json into `out_folder` (made where absent; old scans in it are removed).
-// Errors: kBadOption, kPlanUnsuitable (no room to drive in, no way through a doorway, too few walls that can deviate or be left out, no place for one more),
-// kFileUnwritable. Time: about 10 million rays a second and core.
+// Errors: kBadOption, kPlanUnsuitable (no room to drive in, no way through a doorway, too few walls that can deviate or be left out, no
+// place for one more), kFileUnwritable. Time: about 10 million rays a second and core.
 [[nodiscard]] Expected<SimulateSummary> Simulate(const AGraph& plan, const SimulateOptions& options, const std::string& out_folder,
                                                  const SimulateProgress& progress = {});
 

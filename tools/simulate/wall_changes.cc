@@ -86,7 +86,8 @@ Expected<void> LeaveOutWalls(const AGraph& plan, StoreyId storey, int count, uin
   std::vector<size_t> walls = WallsBetweenRooms(plan, storey);
   std::erase_if(walls, [&](size_t w) { return !built.motions[w].matrix().isIdentity(0); });
   if (walls.size() < static_cast<size_t>(count)) {
-    return Fail(ErrorCode::kPlanUnsuitable, fmt::format("only {} of {} walls can be left out: so many stand between rooms and as planned", walls.size(), count));
+    return Fail(ErrorCode::kPlanUnsuitable,
+                fmt::format("only {} of {} walls can be left out: so many stand between rooms and as planned", walls.size(), count));
   }
   random.Shuffle(walls);
   walls.resize(static_cast<size_t>(count));

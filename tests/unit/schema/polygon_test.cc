@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace plumb {
 namespace {
 
@@ -26,6 +28,15 @@ TEST(Polygon, ContainsWhatIsInsideAndNotTheNotch) {
 TEST(Polygon, RoomsDoNotContainTheirHoles) {
   EXPECT_TRUE(Contains(RoomWithHole().polygon, {3, 0.5}));
   EXPECT_FALSE(Contains(RoomWithHole(), {3, 0.5}));
+}
+
+TEST(Polygon, DistanceToARingIsThatToItsNearestEdgeFromEitherSide) {
+  const Ring ring = RoomWithHole().polygon;
+  EXPECT_DOUBLE_EQ(DistanceToRing(ring, {3, 1.5}), 1);
+  EXPECT_DOUBLE_EQ(DistanceToRing(ring, {-3, -4}), 5);
+  EXPECT_DOUBLE_EQ(DistanceToRing(ring, {0, 0.5}), 0);  // on the edge from the last corner to the first
+  EXPECT_EQ(DistanceToRing(Ring(), {0, 0}), std::numeric_limits<double>::infinity());
+  EXPECT_DOUBLE_EQ(DistanceToSegment({3, 4}, {0, 0}, {0, 0}), 5);  // a point
 }
 
 TEST(Polygon, RoomAtAsksForTheHeightToo) {

@@ -64,7 +64,8 @@ TEST(ComparePoses, CountsPosesThatTheTruthDoesNotCover) {
 
 TEST(Difference, YawOfATiltedSensorIsThatOfTheTurn) {
   Eigen::Isometry3d truth = Eigen::Isometry3d::Identity();
-  truth.linear() = (Eigen::AngleAxisd(0.8, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitY())).toRotationMatrix();
+  truth.linear() =
+      (Eigen::AngleAxisd(0.8, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(0.05, Eigen::Vector3d::UnitY())).toRotationMatrix();
   Eigen::Isometry3d estimate = truth;
   estimate.linear() = Eigen::AngleAxisd(3 * kRad, Eigen::Vector3d::UnitZ()).toRotationMatrix() * truth.linear();
   EXPECT_NEAR(Difference(estimate, truth).yaw_rad, 3 * kRad, 1e-12);

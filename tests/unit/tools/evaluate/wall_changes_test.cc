@@ -17,7 +17,8 @@ std::vector<Eigen::Vector2d> Box(double x0, double y0, double x1, double y1) { r
 TEST(CompareMissing, TellsFoundMissedUnobservedAndFalseApart) {
   Truth truth;
   truth.missing = {{"A", 5000}, {"B", 5000}, {"C", 20}};
-  const Deviations reported{"", {Entry("A", "missing"), Entry("A", "missing"), Entry("B", "as_planned"), Entry("C", "unobserved"), Entry("D", "missing")}, {}};
+  const Deviations reported{
+      "", {Entry("A", "missing"), Entry("A", "missing"), Entry("B", "as_planned"), Entry("C", "unobserved"), Entry("D", "missing")}, {}};
   const auto results = CompareMissing(truth, reported, 200, true);
   ASSERT_EQ(results.size(), 4u);
   EXPECT_EQ(results[0].outcome, WallOutcome::kFound);

@@ -29,7 +29,10 @@ Truth MakeTruth() {
 }
 
 TEST(CompareWalls, TellsFoundMissedAndFalseApart) {
-  const Deviations reported{"", {Entry(0, "A", "deviated", 0.19, 2.5), Entry(1, "A", "unobserved"), Entry(2, "B", "as_planned", -0.01), Entry(3, "C", "deviated", 0.06)}, {}};
+  const Deviations reported{"",
+                            {Entry(0, "A", "deviated", 0.19, 2.5), Entry(1, "A", "unobserved"), Entry(2, "B", "as_planned", -0.01),
+                             Entry(3, "C", "deviated", 0.06)},
+                            {}};
   const auto results = CompareWalls(MakeTruth(), reported, 200);
   ASSERT_EQ(results.size(), 3u);
   EXPECT_EQ(results[0].guid, "A");

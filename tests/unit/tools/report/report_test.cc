@@ -73,6 +73,28 @@ TEST(Report, IsOnePageThatNeedsNothingElse) {
   EXPECT_EQ(*html, *RunToHtml(house, MakeRun(house), MakeInfo()));
 }
 
+TEST(Report, ShowsWhereARobotThatWasNotFoundCouldBe) {
+  const AGraph house = test::MakeHouse();
+  tools::Run run = MakeRun(house);
+  TryRow attempt;
+  attempt.hypotheses.resize(2);
+  attempt.hypotheses[0].probability = 0.7;
+  attempt.hypotheses[0].position_m = {2, 2, 0.6};
+  attempt.hypotheses[1].room_name = "<Küche>";
+  attempt.guidance = GuidanceRow{1, std::nullopt};
+  run.tries = {TryRow(), attempt};
+  const std::string found = *RunToHtml(house, run, MakeInfo());
+  EXPECT_THAT(found, Not(HasSubstr("Where it could be")));
+  EXPECT_THAT(found, Not(HasSubstr("class=\"mark place\"")));
+  run.online.clear();
+  for (VerdictRow& v : run.verdicts) v.verdict = "ambiguous";
+  const std::string html = *RunToHtml(house, run, MakeInfo());
+  EXPECT_THAT(html, HasSubstr("<td>70.0</td>"));
+  EXPECT_THAT(html, HasSubstr("&lt;Küche&gt;"));
+  EXPECT_THAT(html, HasSubstr("2 places look alike"));
+  EXPECT_THAT(html, HasSubstr("class=\"mark place\""));
+}
+
 TEST(Report, ListsDeviatedWallsBySize) {
   const AGraph house = test::MakeHouse();
   const tools::Run run = MakeRun(house);

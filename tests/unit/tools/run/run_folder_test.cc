@@ -18,7 +18,8 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 TEST(Verdicts, ReadBackAsWritten) {
-  const std::vector<VerdictRow> rows = {{1700000000.123456, "searching", 0}, {1700000000.223456, "ambiguous", 3}, {1700000000.323456, "localized", 1}};
+  const std::vector<VerdictRow> rows = {
+      {1700000000.123456, "searching", 0}, {1700000000.223456, "ambiguous", 3}, {1700000000.323456, "localized", 1}};
   const std::string csv = VerdictsToCsv(rows);
   EXPECT_THAT(csv, StartsWith("t,verdict,hypotheses\n1700000000.123456001,searching,0\n"));
   const auto read = ParseVerdicts(csv, "verdicts.csv");
@@ -40,11 +41,12 @@ TEST(Verdicts, NameTheBadLine) {
 }
 
 TEST(Deviations, ReadsTheFileOfTheDesign) {
-  const auto d = ParseDeviations(R"({"version":1,"gauge":"fewest walls","surfaces":[{"id":17,"wall_guid":"2O2Fr$t4X7Zf8NOew3FLOH","storey":"EG",
+  const auto d =
+      ParseDeviations(R"({"version":1,"gauge":"fewest walls","surfaces":[{"id":17,"wall_guid":"2O2Fr$t4X7Zf8NOew3FLOH","storey":"EG",
     "normal":[1,0,0],"status":"deviated","translation_m":0.203,"sigma_translation_m":0.004,"rotation_deg":0.4,"sigma_rotation_deg":0.1,
     "tilt_deg":0.0,"p_deviated":0.999,"observed_m2":6.1,"points":8123},{"id":18,"wall_guid":null,"status":"unobserved","translation_m":null}],
     "rooms":[{"id":3,"name":"Bad","guid":null,"translation_m":[0.1,-0.2],"rotation_deg":1.0,"sigma_m":0.005,"status":"as_planned"}],"unplanned":[]})",
-                                 "deviations.json");
+                      "deviations.json");
   ASSERT_TRUE(d) << d.error().message;
   EXPECT_EQ(d->gauge, "fewest walls");
   ASSERT_EQ(d->surfaces.size(), 2u);

@@ -29,5 +29,41 @@ TEST(Tries, SayWhereToDriveOnlyWherePlacesAreOpen) {
   EXPECT_EQ(d.at("rivals_split"), 2);
 }
 
+TEST(Tries, AreReadAsTheyWereWritten) {
+  HypothesisRow seen;
+  seen.probability = 0.75;
+  seen.position_m = {1.5, -2, 3.25};
+  seen.yaw_rad = 0.5;
+  seen.sigma_xy_m = 0.02;
+  seen.storey = "EG";
+  seen.room = RoomId(3);
+  seen.room_name = "Büro";
+  seen.consistent_planes = 5;
+  HypothesisRow open = seen;
+  open.sigma_xy_m.reset();
+  open.room.reset();
+  TryRow row{12.5, "ambiguous", "2 places", 0.125, {seen, open}, GuidanceRow{1, DriveToRow()}};
+  row.guidance->drive_to->rooms = {RoomId(1), std::nullopt};
+  const std::string json = TriesToJson({row, TryRow()});
+  const auto tries = ParseTries(json, "hypotheses.json");
+  ASSERT_TRUE(tries) << tries.error().message;
+  ASSERT_EQ(tries->size(), 2u);
+  EXPECT_EQ(TriesToJson(*tries), json);
+  ASSERT_EQ((*tries)[0].hypotheses.size(), 2u);
+  EXPECT_EQ((*tries)[0].hypotheses[0].position_m, seen.position_m);
+  EXPECT_EQ((*tries)[0].hypotheses[0].room, RoomId(3));
+  EXPECT_FALSE((*tries)[0].hypotheses[1].sigma_xy_m);
+  EXPECT_EQ((*tries)[1].guidance.has_value(), false);
+}
+
+TEST(Tries, OfADamagedFileAreAnErrorThatNamesIt) {
+  for (const char* json : {"", "{}", R"({"version": 2, "tries": []})", R"({"version": 1, "tries": [{"t": "one"}]})"}) {
+    const auto tries = ParseTries(json, "run/hypotheses.json");
+    ASSERT_FALSE(tries) << json;
+    EXPECT_EQ(tries.error().code, ErrorCode::kBadRunFolder);
+    EXPECT_NE(tries.error().message.find("run/hypotheses.json"), std::string::npos);
+  }
+}
+
 }  // namespace
 }  // namespace plumb::tools

@@ -38,6 +38,15 @@ TEST(OpenDoors, TakesOutTheLeafAndKeepsTheFrame) {
   EXPECT_EQ(house.mesh.triangles.size() - open.mesh.triangles.size(), 12u);
 }
 
+TEST(OpenDoors, TakesOutARailAtTheBottomAndKeepsAThreshold) {
+  AGraph house = test::MakeHouse();
+  test::AddBox(house, {4.98, 2.36, 0.0}, {5.02, 3.14, 0.101}, AddDoorElement(house, "rail"));
+  test::AddBox(house, {4.97, 2.37, 0.0}, {5.03, 3.13, 0.03}, AddDoorElement(house, "threshold"));
+  const AGraph open = WithInnerDoorsOpen(house);
+  EXPECT_EQ(CountTriangles(open, "rail"), 0u);
+  EXPECT_EQ(CountTriangles(open, "threshold"), 12u);
+}
+
 TEST(OpenDoors, TakesOutADoorThatIsOnePiece) {
   AGraph house = test::MakeHouse();
   test::AddBox(house, {4.94, 2.30, 0}, {5.06, 3.20, 2.1}, AddDoorElement(house, "door-D2"));

@@ -138,7 +138,8 @@ TEST(Simulate, RemovesTheScansOfAnEarlierRecording) {
 TEST(Simulate, BrokenOffLeavesNothingOfAnEarlierRecording) {
   const AGraph house = test::MakeHouse();
   const test::TemporaryFolder folder;
-  for (const char* name : {"odometry.tum", "truth.tum", "truth.json"}) ASSERT_TRUE(WriteFileAtomically(folder / name, std::string_view("old")));
+  for (const char* name : {"odometry.tum", "truth.tum", "truth.json"})
+    ASSERT_TRUE(WriteFileAtomically(folder / name, std::string_view("old")));
   bool stood = false;
   const Expected<SimulateSummary> summary = Simulate(house, Short(1), folder.path(), [&](size_t, size_t) {
     for (const char* name : {"odometry.tum", "truth.tum"}) stood |= std::filesystem::exists(folder / name);

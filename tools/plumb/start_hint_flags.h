@@ -1,0 +1,18 @@
+// --near and --room of `plumb localize`.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "runtime/matching/start_hint.h"
+#include "schema/agraph.h"
+#include "schema/error.h"
+
+namespace plumb::tools {
+
+// `near`: "X,Y[,SIGMA]" in metres of the plan frame, may be empty; `rooms`: names or source ids of rooms of the plan.
+// Errors: kBadOption (not numbers; out of range; no such room, with the nearest name).
+[[nodiscard]] Expected<runtime::StartHint> ParseStartHint(const std::string& near, const std::vector<std::string>& rooms,
+                                                          const AGraph& plan);
+
+}  // namespace plumb::tools

@@ -29,7 +29,6 @@ constexpr double kSureGap_s = 0.25;             // after longer gaps the robot m
 constexpr size_t kSearchPoints = 800;
 constexpr std::array<double, 7> kSearchYaw_rad = {0, 0.2, -0.2, 0.4, -0.4, 0.6, -0.6};
 constexpr double kMaxGivenSpeed_mps = 30.0;     // beyond, the given odometry has jumped
-constexpr int kScansForUp = 20;                 // if the first scan does not tell
 constexpr double kPlanarSpacing_m = 0.04;       // of a planar laser's few points
 constexpr double kBootstrapSpeed_mps = 0.03, kBootstrapTurn_radps = 0.03;
 
@@ -68,7 +67,6 @@ struct Odometry::Impl {
   void RestartWithVelocity(const PreparedScan& second, const SweepPrior& prior, RegistrationResult* aligned);
   void Insert(const PreparedScan& prepared, const SweepMotion& motion);
   void Advance(const PreparedScan& prepared, const RegistrationResult& aligned, const std::optional<GivenMotion>& given);
-  void LearnLevel(const RegistrationResult& aligned);
   [[nodiscard]] std::optional<Eigen::Vector3d> up() const { return level ? std::optional(level->up()) : std::nullopt; }
   void LearnPredictionError(const SweepMotion& predicted, const SweepMotion& actual);
 
@@ -77,8 +75,7 @@ struct Odometry::Impl {
   SurfelMap map;
   std::optional<PreparedScan> first;  // until the second scan tells how fast the first one moved
   bool started = false;
-  std::optional<LevelMotion> level;  // once up is known: z of the odometry's frame if the first scan told, else that is the sensor's own axis, which may lie
-  int scans_without_up = 0;
+  std::optional<LevelMotion> level;  // if the first scan told which way is up; else z of the odometry's frame is the sensor's own axis, which may lie
   int failures = 0;         // in a row: nothing says where the robot went meanwhile
   int misfits = 0;          // of these, scans with enough points: the map is not of this place
   EstimatedSweep last;
@@ -140,14 +137,6 @@ SweepPrior Odometry::Impl::PriorAbout(const SweepGaussian& predicted, double sta
   prior.level = level->Restrict(predicted, last, stamp_s, sweep_s);
   prior.up = level->up();
   return prior;
-}
-
-// Once a scan was laid on the map.
-void Odometry::Impl::LearnLevel(const RegistrationResult& aligned) {
-  if (!level && ++scans_without_up < kScansForUp) {
-    if (const std::optional<Eigen::Vector3d> up = FindUp(map, kMaxTilt_rad)) level.emplace(*up);
-  }
-  if (level) level->Learn(aligned.motion.T_start, aligned.covariance.topLeftCorner<3, 3>());
 }
 
 RegistrationResult Odometry::Impl::Align(const PreparedScan& prepared, const SweepPrior& prior, double gap_s) const {
@@ -269,7 +258,7 @@ OdometryResult Odometry::Register(const Scan& scan, const std::optional<GivenMot
       s.found_share = 0;
     }
     if (aligned.ok || result.restarted) s.Insert(prepared, aligned.motion);
-    if (aligned.ok) s.LearnLevel(aligned);
+    if (aligned.ok && s.level) s.level->Learn(aligned.motion.T_start, aligned.covariance.topLeftCorner<3, 3>());
     s.first.reset();  // `last` is the first scan's only until now
     s.Advance(prepared, aligned, given);
     result.ok = aligned.ok;

@@ -3,10 +3,6 @@
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
-#ifdef __GLIBC__
-#include <malloc.h>
-#endif
-
 #include <algorithm>
 #include <exception>
 #include <map>
@@ -15,6 +11,7 @@
 #include <vector>
 
 #include "compiler/emit/emit.h"
+#include "compiler/emit/freed_memory.h"
 #include "compiler/frontends/dxf/dxf_frontend.h"
 #include "compiler/frontends/ifc/ifc_frontend.h"
 #include "compiler/frontends/mesh/mesh_frontend.h"
@@ -178,23 +175,12 @@ std::optional<PlanIr> ReadPlan(const std::string& path, const CompileOptions& op
   return plan;
 }
 
-void ReturnFreedMemory() {
-#ifdef __GLIBC__
-  malloc_trim(0);  // solids are small blocks, which free alone keeps
-#endif
-}
-
-// The solids are most of the memory: what the passes alone need is given back before the triangles are copied, the bodies before the file
-// is put together. Places in the source stay.
+// The solids are most of the memory: what the passes alone need is given back before the triangles are made of the bodies. Places in the
+// source stay.
 void ReleaseSolidsOfPasses(PlanIr& plan) {
   for (PlanElement& element : plan.elements) element.uncut = {};
   for (PlanOpening& opening : plan.openings) opening.body = {};
   for (PlanSpace& space : plan.spaces) space.body = {};
-  ReturnFreedMemory();
-}
-
-void ReleaseBodies(PlanIr& plan) {
-  for (PlanElement& element : plan.elements) element.body = {};
   ReturnFreedMemory();
 }
 
@@ -216,13 +202,13 @@ void AddLocated(const PlanIr& plan, const std::vector<Diagnostic>& found, Diagno
 
 std::optional<AGraph> Run(std::optional<PlanIr> plan, const CompileOptions& options, DiagnosticSink& sink) {
   if (!plan) return std::nullopt;
+  ReturnFreedMemory();  // of the source and the frontend's tables
   std::optional<Built> built = BuildAGraph(*plan, PassOptionsFrom(options), sink);
   if (!built) return std::nullopt;
   AGraph graph = std::move(built->graph);
   built.reset();  // the maps of the floors
   ReleaseSolidsOfPasses(*plan);
   EmitMesh(*plan, graph);
-  ReleaseBodies(*plan);
   MoveToPlanFrame(*plan, graph);
   ForecastAliases({}, graph);
   AddLocated(*plan, ValidateGraph(graph), sink);

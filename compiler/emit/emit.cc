@@ -4,9 +4,13 @@
 #include <bit>
 #include <cmath>
 
+#include "compiler/emit/freed_memory.h"
+
 namespace plumb::compiler {
 namespace {
 
+// The triangles grow while the bodies go, and memory is given back so many times on the way: never is all there twice.
+constexpr size_t kReleases = 8;
 // Single precision holds 0.1 mm up to here.
 constexpr double kFar_m = 1000;
 
@@ -44,6 +48,29 @@ class VertexTable {
 
   std::vector<Eigen::Vector3f>& vertices_;
   std::vector<uint32_t> slots_;  // their number is a power of two
+};
+
+class MeshBuilder {
+ public:
+  MeshBuilder(const Eigen::Vector3d& shift, Mesh& mesh) : shift_(shift), mesh_(mesh), table_(mesh.vertices) {}
+
+  void Add(const Solid& body, uint32_t element) {
+    index_.clear();
+    table_.Start(body.vertices.size());
+    for (const auto& v : body.vertices) index_.push_back(table_.FindOrAdd((v - shift_).cast<float>()));
+    for (const Eigen::Vector3i& t : body.triangles) {
+      const Triangle out{Index(t[0]), Index(t[1]), Index(t[2]), element};
+      if (out.a != out.b && out.b != out.c && out.c != out.a) mesh_.triangles.push_back(out);
+    }
+  }
+
+ private:
+  [[nodiscard]] uint32_t Index(int vertex) const { return index_[static_cast<size_t>(vertex)]; }
+
+  Eigen::Vector3d shift_;
+  Mesh& mesh_;
+  VertexTable table_;
+  std::vector<uint32_t> index_;  // in the mesh, by the body's vertex
 };
 
 Eigen::Vector3d ShiftOf(const PlanIr& plan) {
@@ -90,7 +117,7 @@ class Mover {
 
 }  // namespace
 
-void EmitMesh(const PlanIr& plan, AGraph& graph) {
+void EmitMesh(PlanIr& plan, AGraph& graph) {
   const Eigen::Vector3d shift = ShiftOf(plan);
   graph.origin = plan.origin + shift;
   size_t vertices = 0, triangles = 0;
@@ -100,17 +127,16 @@ void EmitMesh(const PlanIr& plan, AGraph& graph) {
   }
   graph.mesh.vertices.reserve(vertices);
   graph.mesh.triangles.reserve(triangles);
-  VertexTable table(graph.mesh.vertices);
-  std::vector<uint32_t> index;
+  MeshBuilder builder(shift, graph.mesh);
+  size_t kept = 0;  // triangles of the bodies that were freed since memory was given back
   for (uint32_t e = 0; e < plan.elements.size(); ++e) {
-    const Solid& body = plan.elements[e].body;
-    index.clear();
-    table.Start(body.vertices.size());
-    for (const auto& v : body.vertices) index.push_back(table.FindOrAdd((v - shift).cast<float>()));
-    for (const Eigen::Vector3i& t : body.triangles) {
-      const Triangle out{index[static_cast<size_t>(t[0])], index[static_cast<size_t>(t[1])], index[static_cast<size_t>(t[2])], e};
-      if (out.a != out.b && out.b != out.c && out.c != out.a) graph.mesh.triangles.push_back(out);
-    }
+    Solid& body = plan.elements[e].body;
+    builder.Add(body, e);
+    kept += body.triangles.size();
+    body = {};
+    if (kept * kReleases < triangles) continue;
+    ReturnFreedMemory();
+    kept = 0;
   }
 }
 

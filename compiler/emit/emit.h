@@ -9,10 +9,10 @@
 
 namespace plumb::compiler {
 
-// Fills graph.mesh with the bodies of plan.elements; triangle.element is the position there. Vertices of an element that fall on
+// Makes graph.mesh of the bodies of plan.elements, which it takes; triangle.element is the position there. Vertices of an element that fall on
 // the same single-precision point are one, degenerate triangles go. Sets graph.origin: the plan's, moved to the middle of the triangles if those lie
 // far from it.
-void EmitMesh(const PlanIr& plan, AGraph& graph);
+void EmitMesh(PlanIr& plan, AGraph& graph);
 
 // Adds the plan's origin to every pose, polygon and plane: from PlanIr's frame to the plan frame. graph.mesh stays.
 void MoveToPlanFrame(const PlanIr& plan, AGraph& graph);

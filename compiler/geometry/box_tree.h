@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <numeric>
 #include <vector>
 
 namespace plumb::compiler {
@@ -18,11 +17,12 @@ class BoxTree {
 
   BoxTree() = default;
   explicit BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
-    std::iota(order_.begin(), order_.end(), 0u);
     size_t leaves = 1;
     while (leaves * kLeaf < order_.size()) leaves *= 2;
     nodes_.resize(2 * leaves);
-    if (!order_.empty()) Build(1, 0, order_.size());
+    std::vector<Place> places(order_.size());
+    for (uint32_t i = 0; i < places.size(); ++i) places[i].index = i;
+    if (!order_.empty()) Build(1, 0, order_.size(), places);
   }
 
   [[nodiscard]] size_t size() const { return boxes_.size(); }
@@ -45,22 +45,31 @@ class BoxTree {
  private:
   static constexpr size_t kLeaf = 8;
 
+  struct Place {
+    double at;
+    uint32_t index;
+  };
+
   // Node n holds order_[first, last); its halves are nodes 2n and 2n + 1.
-  void Build(size_t node, size_t first, size_t last) {
+  void Build(size_t node, size_t first, size_t last, std::vector<Place>& places) {
     Box& bounds = nodes_[node];
-    for (size_t i = first; i < last; ++i) bounds.extend(boxes_[order_[i]]);
-    if (IsLeaf(node)) return;
+    for (size_t i = first; i < last; ++i) bounds.extend(boxes_[places[i].index]);
+    if (IsLeaf(node)) {
+      for (size_t i = first; i < last; ++i) order_[i] = places[i].index;
+      return;
+    }
     Eigen::Index axis = 0;
     if (!bounds.isEmpty()) bounds.sizes().maxCoeff(&axis);
     const size_t middle = (first + last) / 2;
-    const auto place = [&](uint32_t i) { return boxes_[i].min()[axis] + boxes_[i].max()[axis]; };
-    const auto at = [this](size_t i) { return order_.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::nth_element(at(first), at(middle), at(last), [&](uint32_t a, uint32_t b) {
-      const double p = place(a), q = place(b);
-      return p != q ? p < q : a < b;
-    });
-    Build(2 * node, first, middle);
-    Build(2 * node + 1, middle, last);
+    for (size_t i = first; i < last; ++i) {
+      const Box& box = boxes_[places[i].index];
+      places[i].at = box.min()[axis] + box.max()[axis];
+    }
+    const auto position = [&places](size_t i) { return places.begin() + static_cast<std::ptrdiff_t>(i); };
+    std::nth_element(position(first), position(middle), position(last),
+                     [](const Place& a, const Place& b) { return a.at != b.at ? a.at < b.at : a.index < b.index; });
+    Build(2 * node, first, middle, places);
+    Build(2 * node + 1, middle, last, places);
   }
 
   [[nodiscard]] bool IsLeaf(size_t node) const { return 2 * node >= nodes_.size(); }

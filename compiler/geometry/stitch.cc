@@ -56,7 +56,8 @@ class EdgeZone {
 
 class EdgeSplitter {
  public:
-  EdgeSplitter(const std::vector<Vector3d>& points, double tolerance_m) : points_(points), tolerance_m_(tolerance_m), tree_(BoxesOf(points)) {}
+  EdgeSplitter(const std::vector<Vector3d>& points, double tolerance_m)
+      : points_(points), tolerance_m_(tolerance_m), tree_(BoxesOf(points)) {}
 
   // Appends the corners inside the edge from a to b, in that order.
   void AppendInside(int a, int b, std::vector<int>& ring) {
@@ -91,7 +92,8 @@ class EdgeSplitter {
   std::vector<std::pair<double, int>> found_;  // kept for its memory
 };
 
-// For each edge of each ring, in their order: whether other edges run along it as often the one way as the other. Such edges fit as they are.
+// For each edge of each ring, in their order: whether other edges run along it as often the one way as the other. Such edges
+// fit as they are.
 std::vector<bool> Balanced(const std::vector<std::vector<int>>& rings) {
   struct Edge {
     int low, high;

@@ -132,7 +132,8 @@ bool AppendSmallFace(const Ring3& ring, const FacePlane& plane, Solid& solid) {
   if (ring.size() > flat.size()) return false;
   for (size_t i = 0; i < ring.size(); ++i) flat[i] = plane.Flat(ring[i]);
   const size_t first = solid.triangles.size();
-  if (!TriangulateConvex(std::span<const Vector2d>(flat).first(ring.size()), solid.triangles) || solid.triangles.size() == first) return false;
+  if (!TriangulateConvex(std::span<const Vector2d>(flat).first(ring.size()), solid.triangles) || solid.triangles.size() == first)
+    return false;
   const int base = static_cast<int>(solid.vertices.size());
   for (size_t t = first; t < solid.triangles.size(); ++t) solid.triangles[t].array() += base;
   solid.vertices.insert(solid.vertices.end(), ring.begin(), ring.end());

@@ -33,9 +33,9 @@ void DropRepeatedPoints(double tolerance_m, std::vector<Point>& ring) {
 }
 
 // The area inside an odd number of the rings, whatever their orientation. Every point of the rings is a corner of a triangle, so that the
-// result fits to its neighbours. Rings may touch or cross. Triangles and strictly convex polygons are done directly, the rest by a constrained
-// Delaunay triangulation with exact predicates (CGAL). No triangles for degenerate input, and for rings whose sides cross more often than
-// they have corners. O(n log n) for usual rings.
+// result fits to its neighbours. Rings may touch or cross. Triangles and strictly convex polygons are done directly, the rest by a
+// constrained Delaunay triangulation with exact predicates (CGAL). No triangles for degenerate input, and for rings whose sides cross more
+// often than they have corners. O(n log n) for usual rings.
 [[nodiscard]] Triangulation2 TriangulatePolygon(std::span<const Ring2> rings);
 
 // A face in space, outer ring counter-clockwise seen from outside, appended to `solid` with the outer ring's orientation. The face is

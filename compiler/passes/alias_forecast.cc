@@ -37,19 +37,18 @@ class Forecast {
       if (graph_.aliases.size() == options_.max_aliases || alias_rooms_ >= options_.max_alias_rooms) break;
       AddAlias(c.motion);
     }
-    std::stable_sort(graph_.aliases.begin(), graph_.aliases.end(),
-                     [](const Alias& a, const Alias& b) { return a.closed != b.closed ? a.closed : a.section_length_m > b.section_length_m; });
+    std::stable_sort(graph_.aliases.begin(), graph_.aliases.end(), [](const Alias& a, const Alias& b) {
+      return a.closed != b.closed ? a.closed : a.section_length_m > b.section_length_m;
+    });
   }
 
  private:
   // Only rooms that may have a twin, or that fall on themselves, need sections.
   std::vector<bool> Wanted() const {
     std::vector<bool> wanted(graph_.rooms.size(), false);
-    for (size_t a = 0; a < wanted.size(); ++a) {
-      for (size_t b = a + 1; b < wanted.size(); ++b) {
-        if (!(wanted[a] && wanted[b]) && shapes_.MayBeTwins(RoomId(a), RoomId(b))) wanted[a] = wanted[b] = true;
-      }
-      if (!wanted[a] && shapes_.MayBeTwins(RoomId(a), RoomId(a))) wanted[a] = shapes_.MotionsOnto(RoomId(a), RoomId(a)).size() > 1;
+    for (const RoomId room : shapes_.WithLikelyTwins()) wanted[room.index()] = true;
+    for (size_t r = 0; r < wanted.size(); ++r) {
+      if (!wanted[r] && shapes_.MayBeTwins(RoomId(r), RoomId(r))) wanted[r] = shapes_.MotionsOnto(RoomId(r), RoomId(r)).size() > 1;
     }
     return wanted;
   }
@@ -79,7 +78,8 @@ class Forecast {
   };
 
   std::vector<Part> PartsThatStay(std::vector<RoomPair> pairs) const {
-    std::sort(pairs.begin(), pairs.end(), [](const RoomPair& a, const RoomPair& b) { return std::tie(a.from, a.to) < std::tie(b.from, b.to); });
+    std::sort(pairs.begin(), pairs.end(),
+              [](const RoomPair& a, const RoomPair& b) { return std::tie(a.from, a.to) < std::tie(b.from, b.to); });
     std::vector<bool> seen(pairs.size(), false);
     std::vector<Part> parts;
     for (size_t i = 0; i < pairs.size(); ++i) {
@@ -128,7 +128,8 @@ class Forecast {
     for (const TwinClass& c : classes_) {
       for (RoomId room : c.rooms) {
         const double x_m = motion.Apply(shapes_.Center(room)).x();
-        auto it = std::lower_bound(c.by_x.begin(), c.by_x.end(), x_m - reach_m, [&](RoomId r, double x) { return shapes_.Center(r).x() < x; });
+        auto it =
+            std::lower_bound(c.by_x.begin(), c.by_x.end(), x_m - reach_m, [&](RoomId r, double x) { return shapes_.Center(r).x() < x; });
         for (; it != c.by_x.end() && shapes_.Center(*it).x() <= x_m + reach_m; ++it) {
           if (shapes_.TakesOnto(room, motion, *it)) pairs.push_back({room, *it});
         }
@@ -158,7 +159,8 @@ class Forecast {
 
   bool IsKnown(const PlanarMotion& motion) const {
     return std::any_of(known_.begin(), known_.end(), [&](const PlanarMotion& known) {
-      for (const auto corner : {Eigen::AlignedBox3d::BottomLeftFloor, Eigen::AlignedBox3d::BottomRightFloor, Eigen::AlignedBox3d::TopLeftFloor}) {
+      for (const auto corner :
+           {Eigen::AlignedBox3d::BottomLeftFloor, Eigen::AlignedBox3d::BottomRightFloor, Eigen::AlignedBox3d::TopLeftFloor}) {
         const Eigen::Vector3d p = box_.corner(corner);
         if ((known.Apply(p) - motion.Apply(p)).norm() > kSameMotion_m) return false;
       }
@@ -261,7 +263,8 @@ std::string AliasOptions::Check() const {
   for (const std::string& fault : {sections.Check(), twins.Check()}) {
     if (!fault.empty()) return fault;
   }
-  if (!(min_overlap_ratio > 0 && min_overlap_ratio <= 1)) return fmt::format("AliasOptions.min_overlap_ratio = {}; must be in (0, 1]", min_overlap_ratio);
+  if (!(min_overlap_ratio > 0 && min_overlap_ratio <= 1))
+    return fmt::format("AliasOptions.min_overlap_ratio = {}; must be in (0, 1]", min_overlap_ratio);
   if (!(min_difference_m >= 0)) return fmt::format("AliasOptions.min_difference_m = {}; must not be negative", min_difference_m);
   if (max_aliases > 1000) return fmt::format("AliasOptions.max_aliases = {}; must be at most 1000", max_aliases);
   return {};

@@ -101,9 +101,9 @@ SourceLocation LocationOf(const AGraph& graph, RoomId room) {
 void Describe(const AGraph& graph, const Alias& a, DiagnosticSink& sink) {
   if (a.rooms.empty()) return;  // from a file before schema 1.1
   sink.Emit(a.closed ? DiagnosticKind::kPlanAlias : DiagnosticKind::kPartialAlias, LocationOf(graph, a.rooms.front()),
-            fmt::format("{}, {} {} on {} that a LiDAR cannot tell apart: {}; {:.0f} % of {:.0f} m of wall sections coincide within {} m", MotionOf(a),
-                        a.rooms.size(), a.rooms.size() == 1 ? "room falls" : "rooms fall", a.rooms.size() == 1 ? "one" : "rooms", PairsOf(graph, a),
-                        100 * a.overlap_ratio, a.section_length_m, a.tolerance_m),
+            fmt::format("{}, {} {} on {} that a LiDAR cannot tell apart: {}; {:.0f} % of {:.0f} m of wall sections coincide within {} m",
+                        MotionOf(a), a.rooms.size(), a.rooms.size() == 1 ? "room falls" : "rooms fall",
+                        a.rooms.size() == 1 ? "one" : "rooms", PairsOf(graph, a), 100 * a.overlap_ratio, a.section_length_m, a.tolerance_m),
             HintOf(graph, a));
 }
 
@@ -117,7 +117,8 @@ std::vector<Diagnostic> DescribeAliases(const AGraph& graph) {
     std::vector<std::string> names;
     for (RoomId room : l.rooms) names.push_back(NameOf(graph, room));
     sink.Emit(DiagnosticKind::kRoomsAlike, LocationOf(graph, l.rooms.front()),
-              fmt::format("{} rooms look alike from inside: {}", l.rooms.size(), Listed(names)), "a robot must leave the room to tell which one it is");
+              fmt::format("{} rooms look alike from inside: {}", l.rooms.size(), Listed(names)),
+              "a robot must leave the room to tell which one it is");
   }
   return sink.all();
 }

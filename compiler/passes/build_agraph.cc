@@ -84,8 +84,8 @@ void AddElements(const PlanIr& plan, const FloorIr& floors, const OpeningElement
 std::string PassOptions::Check() const {
   if (!(section_height_m > 0 && section_height_m < 10))
     return fmt::format("PassOptions.section_height_m = {}; must be in (0, 10)", section_height_m);
-  for (const std::string& fault : {storeys.Check(), footprints.Check(), planar_map.Check(), bridges.Check(), division.Check(), arcs.Check(), rooms.Check(), naming.Check(),
-                                   surfaces.Check(), hosting.Check(), doorways.Check()}) {
+  for (const std::string& fault : {storeys.Check(), footprints.Check(), planar_map.Check(), bridges.Check(), division.Check(), arcs.Check(),
+                                   rooms.Check(), naming.Check(), surfaces.Check(), hosting.Check(), doorways.Check()}) {
     if (!fault.empty()) return fault;
   }
   return {};

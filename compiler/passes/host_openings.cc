@@ -312,7 +312,8 @@ class Host {
     const Eigen::Vector2d at = u * out.along + extent.center().y() * across;
     const Wall& wall = graph_.walls[w];
     const double offset = across.dot(wall.axis_start - at);
-    const auto [lo, hi] = SolidInterval(rings, at, across).value_or(std::pair(offset - 0.5 * wall.thickness_m, offset + 0.5 * wall.thickness_m));
+    const auto [lo, hi] =
+        SolidInterval(rings, at, across).value_or(std::pair(offset - 0.5 * wall.thickness_m, offset + 0.5 * wall.thickness_m));
     out.center = at + 0.5 * (lo + hi) * across;
     out.depth_m = hi - lo;
     const double half = 0.5 * extent.sizes().y();

@@ -33,8 +33,8 @@ struct HostingOptions {
   [[nodiscard]] std::string Check() const;
 };
 
-// In the order of openings, then of elements. Openings in slabs and roofs, windows that lie in them, and unfilled ones that miss their wall are left out. Needs
-// graph.walls and graph.storeys.
+// In the order of openings, then of elements. Openings in slabs and roofs, windows that lie in them, and unfilled ones that miss their wall
+// are left out. Needs graph.walls and graph.storeys.
 [[nodiscard]] std::vector<HostedOpening> HostOpenings(const PlanIr& plan, const FloorIr& floors, const HostingOptions& options,
                                                       const AGraph& graph, DiagnosticSink& sink);
 

@@ -41,7 +41,8 @@ Eigen::AlignedBox2d WithinWall(const Eigen::AlignedBox2d& extent, const Eigen::V
   return {Eigen::Vector2d(from, extent.min().y()), Eigen::Vector2d(to, extent.max().y())};
 }
 
-std::optional<std::pair<double, double>> SolidInterval(const std::vector<Ring>& rings, const Eigen::Vector2d& at, const Eigen::Vector2d& across) {
+std::optional<std::pair<double, double>> SolidInterval(const std::vector<Ring>& rings, const Eigen::Vector2d& at,
+                                                       const Eigen::Vector2d& across) {
   std::vector<std::pair<double, int>> crossings;
   for (const Ring& ring : rings) {
     for (size_t i = 0; i < ring.size(); ++i) {

@@ -16,7 +16,8 @@ namespace plumb::compiler {
 
 // `extent`, whose x is along the unit vector `along`, without what lies past the wall's ends: there it takes nothing. As it is, if it
 // does not meet the wall at all.
-[[nodiscard]] Eigen::AlignedBox2d WithinWall(const Eigen::AlignedBox2d& extent, const Eigen::Vector2d& along, const std::vector<Ring>& rings);
+[[nodiscard]] Eigen::AlignedBox2d WithinWall(const Eigen::AlignedBox2d& extent, const Eigen::Vector2d& along,
+                                             const std::vector<Ring>& rings);
 
 // From where to where the line at + t * across runs inside the rings: the interval nearest to t = 0; none if it misses them.
 [[nodiscard]] std::optional<std::pair<double, double>> SolidInterval(const std::vector<Ring>& rings, const Eigen::Vector2d& at,

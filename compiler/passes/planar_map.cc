@@ -5,6 +5,7 @@
 #include <CGAL/Arr_segment_traits_2.h>
 #include <CGAL/Arrangement_2.h>
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +13,8 @@
 #include <deque>
 #include <map>
 #include <new>
-#include <set>
+#include <utility>
+#include <vector>
 
 #include "compiler/passes/face_locator.h"
 #include "compiler/passes/floor_outlines.h"
@@ -22,26 +24,34 @@
 namespace plumb::compiler {
 namespace {
 
-using Kernel = CGAL::Exact_predicates_exact_constructions_kernel;
-using Traits = CGAL::Arr_consolidated_curve_data_traits_2<CGAL::Arr_segment_traits_2<Kernel>, uint32_t>;  // data: number of the run
+// Winding number per outline, in their order: of footprints by their index, then of dividers. Those with 0 are left out.
+using Windings = std::vector<std::pair<uint32_t, int>>;
 
-// Winding number per outline: of footprints by their index, then of dividers. Those with 0 are left out.
-using Windings = std::map<uint32_t, int>;
+void AddTo(Windings& windings, uint32_t outline, int count) {
+  const auto at = std::lower_bound(windings.begin(), windings.end(), outline, [](const auto& w, uint32_t o) { return w.first < o; });
+  if (at == windings.end() || at->first != outline)
+    windings.insert(at, {outline, count});
+  else if ((at->second += count) == 0)
+    windings.erase(at);
+}
 
 struct FaceLabel {
+  bool known = false;
   Windings windings;
   uint32_t index = kNoIndex;   // in Floor::faces
   uint32_t region = kNoIndex;  // free faces that no wall divides have the same
   uint32_t space = kNoIndex;   // divider that the face belongs to
 };
 
-using Arrangement = CGAL::Arrangement_2<Traits, CGAL::Arr_extended_dcel<Traits, uint32_t, char, FaceLabel>>;
-using Halfedge = Arrangement::Halfedge_const_handle;
+// Of outlines that meet in vertices only nothing is constructed: doubles do for its numbers, and its predicates are exact all the same.
+using PlanarKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using CrossingKernel = CGAL::Exact_predicates_exact_constructions_kernel;
 
+template <class Kernel>
 class MapBuilder {
  public:
-  MapBuilder(Floor& floor, const PlanarMapOptions& options)
-      : floor_(floor), options_(options), numbers_(floor), graph_(Snap(OutlinesOf(floor), options.snap_radius_m)) {}
+  MapBuilder(Floor& floor, const PlanarMapOptions& options, SnapGraph graph)
+      : floor_(floor), options_(options), numbers_(floor), graph_(std::move(graph)) {}
 
   void Run() {
     Insert();
@@ -53,29 +63,52 @@ class MapBuilder {
   }
 
  private:
+  using SegmentTraits = CGAL::Arr_segment_traits_2<Kernel>;
+  using Traits = CGAL::Arr_consolidated_curve_data_traits_2<SegmentTraits, uint32_t>;  // data: number of the run
+  using Arrangement = CGAL::Arrangement_2<Traits, CGAL::Arr_extended_dcel<Traits, uint32_t, char, FaceLabel>>;
+  using Vertex = typename Arrangement::Vertex_handle;
+  using Face = typename Arrangement::Face_handle;
+  using Circulator = typename Arrangement::Ccb_halfedge_circulator;
+  using ConstHalfedge = typename Arrangement::Halfedge_const_handle;
+
+  struct Piece {
+    uint32_t left, right, segment;
+    auto operator<=>(const Piece&) const = default;
+  };
+
   // Segments over each other make one curve: to find out in exact arithmetic that they are the same takes most of the time otherwise.
   void Insert() {
     const auto less = [this](uint32_t a, uint32_t b) { return LexicographicallyLess(graph_.vertices[a], graph_.vertices[b]); };
-    std::map<std::pair<uint32_t, uint32_t>, std::vector<uint32_t>> runs;
+    std::vector<Piece> order;
+    order.reserve(graph_.segments.size());
     for (uint32_t i = 0; i < graph_.segments.size(); ++i) {
       const SnapSegment& s = graph_.segments[i];
       if (graph_.vertices[s.from] == graph_.vertices[s.to]) continue;
-      runs[less(s.from, s.to) ? std::pair(s.from, s.to) : std::pair(s.to, s.from)].push_back(i);
+      order.push_back(less(s.from, s.to) ? Piece{s.from, s.to, i} : Piece{s.to, s.from, i});
     }
-    std::vector<Kernel::Point_2> points;
+    std::sort(order.begin(), order.end());
+    std::vector<typename Kernel::Point_2> points;
+    points.reserve(graph_.vertices.size());
     for (const Eigen::Vector2d& v : graph_.vertices) points.emplace_back(v.x(), v.y());
-    std::vector<Traits::X_monotone_curve_2> curves;
-    for (auto& [ends, segments] : runs) {
-      curves.emplace_back(CGAL::Arr_segment_traits_2<Kernel>::X_monotone_curve_2(points[ends.first], points[ends.second]), static_cast<uint32_t>(runs_.size()));
-      runs_.push_back(std::move(segments));
+    std::vector<typename Traits::X_monotone_curve_2> curves;
+    for (size_t i = 0; i < order.size(); ++i) {
+      run_segments_.push_back(order[i].segment);
+      if (i > 0 && order[i].left == order[i - 1].left && order[i].right == order[i - 1].right) continue;
+      curves.emplace_back(typename SegmentTraits::X_monotone_curve_2(points[order[i].left], points[order[i].right]),
+                          static_cast<uint32_t>(run_begin_.size()));
+      run_begin_.push_back(static_cast<uint32_t>(i));
     }
-    CGAL::insert(arrangement_, curves.begin(), curves.end());
+    run_begin_.push_back(static_cast<uint32_t>(order.size()));
+    if (graph_.is_planar)
+      CGAL::insert_non_intersecting_curves(arrangement_, curves.begin(), curves.end());
+    else
+      CGAL::insert(arrangement_, curves.begin(), curves.end());
   }
 
   template <class Visit>
-  void ForEachSegment(Halfedge edge, const Visit& visit) const {
+  void ForEachSegment(ConstHalfedge edge, const Visit& visit) const {
     for (const uint32_t run : edge->curve().data()) {
-      for (const uint32_t i : runs_[run]) visit(graph_.segments[i]);
+      for (uint32_t i = run_begin_[run]; i < run_begin_[run + 1]; ++i) visit(graph_.segments[run_segments_[i]]);
     }
   }
 
@@ -84,7 +117,7 @@ class MapBuilder {
     for (bool changed = true; changed;) {
       changed = false;
       for (auto e = arrangement_.edges_begin(); e != arrangement_.edges_end();) {
-        const Arrangement::Halfedge_handle here = e->twin()->twin();
+        const typename Arrangement::Halfedge_handle here = e->twin()->twin();
         ++e;
         if (here->face() != here->twin()->face()) continue;
         arrangement_.remove_edge(here);
@@ -93,21 +126,20 @@ class MapBuilder {
     }
   }
 
-  // How much the winding numbers on the left of `edge` exceed those on its right.
-  Windings StepOver(Halfedge edge) const {
-    Windings out;
+  // Of the face on the right of `edge` after those of the one on its left.
+  Windings StepOver(ConstHalfedge edge, Windings windings) const {
     const bool edge_forward = edge->direction() == CGAL::ARR_LEFT_TO_RIGHT;
     ForEachSegment(edge, [&](const SnapSegment& s) {
       if (!numbers_.Encloses(s.footprint)) return;
       const bool forward = LexicographicallyLess(graph_.vertices[s.from], graph_.vertices[s.to]);
-      out[s.footprint] += forward == edge_forward ? 1 : -1;
+      AddTo(windings, s.footprint, forward == edge_forward ? -1 : 1);
     });
-    return out;
+    return windings;
   }
 
   template <class Visit>
-  static void ForEachEdge(Arrangement::Face_handle face, const Visit& visit) {
-    const auto walk = [&visit](Arrangement::Ccb_halfedge_circulator first) {
+  static void ForEachEdge(Face face, const Visit& visit) {
+    const auto walk = [&visit](Circulator first) {
       auto edge = first;
       do visit(edge);
       while (++edge != first);
@@ -117,38 +149,34 @@ class MapBuilder {
   }
 
   void LabelFaces() {
-    std::deque<Arrangement::Face_handle> open = {arrangement_.unbounded_face()};
-    std::set<const void*> known = {&*arrangement_.unbounded_face()};  // membership only, never walked in order
+    std::deque<Face> open = {arrangement_.unbounded_face()};
+    open.front()->data().known = true;
     while (!open.empty()) {
-      const Arrangement::Face_handle face = open.front();
+      const Face face = open.front();
       open.pop_front();
-      ForEachEdge(face, [&](Arrangement::Ccb_halfedge_circulator edge) {
-        const Arrangement::Face_handle across = edge->twin()->face();
-        if (!known.insert(&*across).second) return;
-        Windings windings = face->data().windings;
-        for (const auto& [outline, step] : StepOver(edge)) {
-          if ((windings[outline] -= step) == 0) windings.erase(outline);
-        }
-        across->data().windings = std::move(windings);
+      ForEachEdge(face, [&](Circulator edge) {
+        const Face across = edge->twin()->face();
+        if (std::exchange(across->data().known, true)) return;
+        across->data().windings = StepOver(edge, face->data().windings);
         open.push_back(across);
       });
     }
   }
 
-  bool IsFree(Arrangement::Face_const_handle f) const {
+  bool IsFree(typename Arrangement::Face_const_handle f) const {
     const Windings& windings = f->data().windings;
-    return !f->is_unbounded() && (windings.empty() || numbers_.IsDivider(windings.begin()->first));
+    return !f->is_unbounded() && (windings.empty() || numbers_.IsDivider(windings.front().first));
   }
   // No wall's outline and no bridge runs here.
-  bool IsVirtual(Halfedge edge) const {
+  bool IsVirtual(ConstHalfedge edge) const {
     bool is_virtual = true;
     ForEachSegment(edge, [&](const SnapSegment& s) { is_virtual &= numbers_.IsDivider(s.footprint); });
     return is_virtual;
   }
 
-  static double AreaOf(Arrangement::Face_handle face) {
+  static double AreaOf(Face face) {
     double twice = 0;
-    ForEachEdge(face, [&twice](Arrangement::Ccb_halfedge_circulator edge) {
+    ForEachEdge(face, [&twice](Circulator edge) {
       const auto &a = edge->source()->point(), &b = edge->target()->point();
       twice += CGAL::to_double(a.x()) * CGAL::to_double(b.y()) - CGAL::to_double(b.x()) * CGAL::to_double(a.y());
     });
@@ -162,7 +190,7 @@ class MapBuilder {
     while (AdoptStrips()) {
     }
     for (auto e = arrangement_.edges_begin(); e != arrangement_.edges_end();) {
-      const Arrangement::Halfedge_handle here = e->twin()->twin();
+      const typename Arrangement::Halfedge_handle here = e->twin()->twin();
       ++e;
       const FaceLabel &a = here->face()->data(), &b = here->twin()->face()->data();
       if (!IsVirtual(here) || (a.region != kNoIndex && a.space != b.space)) continue;
@@ -175,13 +203,13 @@ class MapBuilder {
     uint32_t regions = 0;
     for (auto f = arrangement_.faces_begin(); f != arrangement_.faces_end(); ++f) {
       if (!IsFree(f) || f->data().region != kNoIndex) continue;
-      std::vector<Arrangement::Face_handle> open = {f};
+      std::vector<Face> open = {f};
       f->data().region = regions;
       while (!open.empty()) {
-        const Arrangement::Face_handle face = open.back();
+        const Face face = open.back();
         open.pop_back();
-        ForEachEdge(face, [&](Arrangement::Ccb_halfedge_circulator edge) {
-          const Arrangement::Face_handle across = edge->twin()->face();
+        ForEachEdge(face, [&](Circulator edge) {
+          const Face across = edge->twin()->face();
           if (!IsFree(across) || !IsVirtual(edge) || across->data().region != kNoIndex) return;
           across->data().region = regions;
           open.push_back(across);
@@ -216,9 +244,9 @@ class MapBuilder {
       if (!IsFree(f) || f->data().space != kNoIndex) continue;
       double perimeter = 0;
       std::map<uint32_t, double> border;
-      ForEachEdge(f, [&](Arrangement::Ccb_halfedge_circulator edge) {
+      ForEachEdge(f, [&](Circulator edge) {
         const double length = std::sqrt(CGAL::to_double(CGAL::squared_distance(edge->source()->point(), edge->target()->point())));
-        const Arrangement::Face_handle across = edge->twin()->face();
+        const Face across = edge->twin()->face();
         perimeter += length;
         if (IsVirtual(edge) && across->data().region == f->data().region && across->data().space != kNoIndex)
           border[across->data().space] += length;
@@ -232,7 +260,7 @@ class MapBuilder {
   }
 
   void ExtractVertices() {
-    std::vector<std::pair<Eigen::Vector2d, Arrangement::Vertex_handle>> vertices;
+    std::vector<std::pair<Eigen::Vector2d, Vertex>> vertices;
     for (auto v = arrangement_.vertices_begin(); v != arrangement_.vertices_end(); ++v) {
       vertices.emplace_back(Eigen::Vector2d(CGAL::to_double(v->point().x()), CGAL::to_double(v->point().y())), v);
     }
@@ -244,7 +272,7 @@ class MapBuilder {
     }
   }
 
-  std::vector<BoundaryEdge> Boundary(Arrangement::Ccb_halfedge_const_circulator first) const {
+  std::vector<BoundaryEdge> Boundary(typename Arrangement::Ccb_halfedge_const_circulator first) const {
     std::vector<BoundaryEdge> out;
     auto edge = first;
     do {
@@ -270,10 +298,10 @@ class MapBuilder {
   }
 
   void ExtractFaces() {
-    std::vector<Arrangement::Face_handle> order;
+    std::vector<Face> order;
     for (auto f = arrangement_.faces_begin(); f != arrangement_.faces_end(); ++f) order.push_back(f);
     // A face is told by the two least vertices of its outer boundary: the directed edge that leaves the least one has one face on its left.
-    const auto key = [](Arrangement::Face_const_handle f) {
+    const auto key = [](typename Arrangement::Face_const_handle f) {
       std::pair<uint32_t, uint32_t> least(0, 0);
       if (f->is_unbounded()) return least;
       least = {kNoIndex, kNoIndex};
@@ -283,7 +311,7 @@ class MapBuilder {
       } while (++edge != f->outer_ccb());
       return least;
     };
-    std::vector<std::pair<std::pair<uint32_t, uint32_t>, Arrangement::Face_handle>> keyed;
+    std::vector<std::pair<std::pair<uint32_t, uint32_t>, Face>> keyed;
     for (const auto& f : order) keyed.emplace_back(key(f), f);
     std::stable_sort(keyed.begin(), keyed.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     for (uint32_t i = 0; i < keyed.size(); ++i) keyed[i].second->data().index = i;
@@ -310,7 +338,7 @@ class MapBuilder {
   const PlanarMapOptions& options_;
   OutlineNumbers numbers_;
   SnapGraph graph_;
-  std::vector<std::vector<uint32_t>> runs_;  // segments of the graph that lie over each other: the data of the curves
+  std::vector<uint32_t> run_begin_, run_segments_;  // segments of the graph that lie over each other, by run; positions, and the end
   Arrangement arrangement_;
 };
 
@@ -325,7 +353,11 @@ std::string PlanarMapOptions::Check() const {
 
 Expected<void> BuildPlanarMap(Floor& floor, const PlanarMapOptions& options) {
   try {
-    MapBuilder(floor, options).Run();
+    SnapGraph graph = Snap(OutlinesOf(floor), options.snap_radius_m);
+    if (graph.is_planar)
+      MapBuilder<PlanarKernel>(floor, options, std::move(graph)).Run();
+    else
+      MapBuilder<CrossingKernel>(floor, options, std::move(graph)).Run();
   } catch (const std::bad_alloc&) {
     throw;  // the plan is too complex, which the compiler says
   } catch (const std::exception& e) {

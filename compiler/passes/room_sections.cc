@@ -1,6 +1,7 @@
 #include "compiler/passes/room_sections.h"
 
 #include <fmt/format.h>
+#include <tbb/parallel_for.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -21,6 +22,7 @@ constexpr double kMinCell_m = 0.25;    // of the grid that finds points
 constexpr double kMinSlope = 0.1;      // horizontal part of the normal of a face that is no floor
 constexpr size_t kLeastCompared = 16;  // points of a room
 constexpr int kMaxCells = 256;         // along one side of a grid
+constexpr size_t kLeastTriangles = 512;  // that are cut in one go
 
 bool IsFixed(const Element& e) {
   return e.material != Material::kGlass && e.kind != ElementKind::kDoor && e.kind != ElementKind::kFurniture && !e.doorway.valid();
@@ -137,19 +139,19 @@ std::string SectionOptions::Check() const {
   return {};
 }
 
+using FoundPoint = std::pair<RoomId, SectionPoint>;
+
 // Cuts triangle by triangle. Points come at equal steps along all sections of an element, however finely they are divided.
 class RoomSections::Cutter {
  public:
-  Cutter(const AGraph& graph, const std::vector<bool>& wanted, const SectionOptions& options)
-      : graph_(graph), options_(options), levels_(LevelsOf(graph, wanted)), planes_(PlanesOf(levels_, options.heights_m)) {}
+  Cutter(const AGraph& graph, const std::vector<Level>& levels, const std::vector<Plane>& planes, const SectionOptions& options)
+      : graph_(graph), options_(options), levels_(levels), planes_(planes) {}
 
-  // Points with their rooms.
-  std::vector<std::pair<RoomId, SectionPoint>> Run() {
-    std::vector<uint8_t> fixed(graph_.elements.size());
-    for (size_t e = 0; e < fixed.size(); ++e) fixed[e] = IsFixed(graph_.elements[e]);
-    uint32_t element = 0;
-    for (const Triangle& t : graph_.mesh.triangles) {
-      if (!fixed[t.element]) continue;
+  // Points with their rooms, of the triangles from the first of an element to the last of one.
+  std::vector<FoundPoint> Run(std::span<const Triangle> triangles) {
+    uint32_t element = kNoElement;
+    for (const Triangle& t : triangles) {
+      if (!IsFixed(graph_.elements[t.element])) continue;
       if (t.element != element) owed_m_ = options_.step_m / 2;
       element = t.element;
       Cut(t);
@@ -192,24 +194,54 @@ class RoomSections::Cutter {
     owed_m_ -= length_m;
   }
 
+  static constexpr uint32_t kNoElement = 0xffffffffu;
+
   const AGraph& graph_;
   const SectionOptions& options_;
-  std::vector<Level> levels_;
-  std::vector<Plane> planes_;
-  std::vector<std::pair<RoomId, SectionPoint>> points_;
+  const std::vector<Level>& levels_;
+  const std::vector<Plane>& planes_;
+  std::vector<FoundPoint> points_;
   double owed_m_ = 0;  // to the next point
 };
 
+// Parts of the mesh that hold whole elements, which are cut alone: what is found does not depend on who cuts what.
+std::vector<std::span<const Triangle>> RoomSections::PartsOf(const std::vector<Triangle>& triangles) {
+  std::vector<std::span<const Triangle>> out;
+  for (size_t first = 0, last = 0; first < triangles.size(); first = last) {
+    last = std::min(first + kLeastTriangles, triangles.size());
+    while (last < triangles.size() && triangles[last].element == triangles[last - 1].element) ++last;
+    out.emplace_back(triangles.data() + first, last - first);
+  }
+  return out;
+}
+
+// By part of the mesh.
+std::vector<std::vector<FoundPoint>> RoomSections::Find(const AGraph& graph, const std::vector<bool>& wanted) const {
+  const std::vector<Level> levels = LevelsOf(graph, wanted);
+  const std::vector<Plane> planes = PlanesOf(levels, options_.heights_m);
+  const auto parts = PartsOf(graph.mesh.triangles);
+  std::vector<std::vector<FoundPoint>> out(parts.size());
+  tbb::parallel_for(size_t{0}, parts.size(), [&](size_t i) { out[i] = Cutter(graph, levels, planes, options_).Run(parts[i]); });
+  return out;
+}
+
 RoomSections::RoomSections(const AGraph& graph, const std::vector<bool>& wanted, const SectionOptions& options)
     : options_(options), min_cos_(std::cos(options.max_turn_rad)), begin_(graph.rooms.size() + 1), grids_(graph.rooms.size()) {
-  const auto found = Cutter(graph, wanted, options_).Run();
-  for (const auto& [room, point] : found) ++begin_[room.index() + 1];
+  auto found = Find(graph, wanted);
+  size_t count = 0;
+  for (const auto& part : found) {
+    count += part.size();
+    for (const auto& [room, point] : part) ++begin_[room.index() + 1];
+  }
   std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-  stride_ = 1 + found.size() / options_.max_compared;
-  points_.resize(found.size());
+  stride_ = 1 + count / options_.max_compared;
+  points_.resize(count);
   std::vector<uint32_t> next(begin_.begin(), begin_.end() - 1);
-  for (const auto& [room, point] : found) points_[next[room.index()]++] = point;
-  for (size_t r = 0; r < grids_.size(); ++r) BuildGrid(r);
+  for (auto& part : found) {
+    for (const auto& [room, point] : part) points_[next[room.index()]++] = point;
+    part = {};
+  }
+  tbb::parallel_for(size_t{0}, grids_.size(), [this](size_t r) { BuildGrid(r); });
 }
 
 void RoomSections::BuildGrid(size_t room) {

@@ -62,6 +62,8 @@ class RoomSections {
     std::vector<uint32_t> begin;  // per height, row and column; positions in points_
   };
   class Cutter;
+  static std::vector<std::span<const Triangle>> PartsOf(const std::vector<Triangle>& triangles);
+  [[nodiscard]] std::vector<std::vector<std::pair<RoomId, SectionPoint>>> Find(const AGraph& graph, const std::vector<bool>& wanted) const;
   void BuildGrid(size_t room);
   [[nodiscard]] bool Coincides(RoomId room, const SectionPoint& p) const;
   void CompareOneWay(RoomId from, const PlanarMotion& motion, RoomId to, SectionComparison& out) const;

@@ -13,6 +13,7 @@ namespace {
 constexpr double kStraight_m = 0.01;     // corners less off the line through their neighbours do not count
 constexpr double kSameTurn_cos = 0.9999; // 0.8 degrees
 constexpr size_t kMaxMotions = 16;       // a round room falls on itself under any turn
+constexpr double kPerimeterTolerances = 8;  // that the perimeters of twins may differ by
 constexpr size_t kMaxCorners = 400;      // more, and a room is compared with no other
 
 double Perimeter(const Ring& ring) {
@@ -87,8 +88,28 @@ bool RoomShapes::MayBeTwins(RoomId a, RoomId b) const {
   const Shape &s = shapes_[a.index()], &t = shapes_[b.index()];
   const double tolerance = options_.tolerance_m;
   return s.openings.size() == t.openings.size() && std::abs(s.area_m2 - t.area_m2) <= tolerance * std::min(s.perimeter_m, t.perimeter_m) &&
-         std::abs(s.perimeter_m - t.perimeter_m) <= 8 * tolerance && std::abs(s.height_m - t.height_m) <= options_.height_tolerance_m &&
+         std::abs(s.perimeter_m - t.perimeter_m) <= kPerimeterTolerances * tolerance && std::abs(s.height_m - t.height_m) <= options_.height_tolerance_m &&
          std::max(CornersOf(s.rings), CornersOf(t.rings)) <= kMaxCorners;
+}
+
+std::vector<RoomId> RoomShapes::WithLikelyTwins() const {
+  std::vector<RoomId> order;
+  for (size_t r = 0; r < shapes_.size(); ++r) order.emplace_back(r);
+  const auto key = [this](RoomId r) { return std::pair(shapes_[r.index()].openings.size(), shapes_[r.index()].perimeter_m); };
+  std::stable_sort(order.begin(), order.end(), [&](RoomId a, RoomId b) { return key(a) < key(b); });
+  std::vector<RoomId> out;
+  for (size_t i = 0; i < order.size(); ++i) {
+    const auto is_near = [&](size_t k) {
+      const auto [ways, perimeter_m] = key(order[i]);
+      const auto [other_ways, other_m] = key(order[k]);
+      return ways == other_ways && std::abs(perimeter_m - other_m) <= kPerimeterTolerances * options_.tolerance_m;
+    };
+    bool found = false;
+    for (size_t k = i; !found && k-- > 0 && is_near(k);) found = MayBeTwins(order[i], order[k]);
+    for (size_t k = i + 1; !found && k < order.size() && is_near(k); ++k) found = MayBeTwins(order[i], order[k]);
+    if (found) out.push_back(order[i]);
+  }
+  return out;
 }
 
 bool RoomShapes::BoundaryOnto(const Shape& a, const PlanarMotion& motion, const Shape& b) const {

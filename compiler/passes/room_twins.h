@@ -24,6 +24,8 @@ class RoomShapes {
 
   // Cheap and necessary: area, perimeter, height and number of doorways.
   [[nodiscard]] bool MayBeTwins(RoomId a, RoomId b) const;
+  // Those that may be twins of another room, in no particular order. O(n log n), and the pairs of like ways and perimeter that are none.
+  [[nodiscard]] std::vector<RoomId> WithLikelyTwins() const;
   // True if `motion` takes the boundary, floor, height and doorways of `a` onto those of `b`. O(E^2) for E edges.
   [[nodiscard]] bool TakesOnto(RoomId a, const PlanarMotion& motion, RoomId b) const;
   // All motions, at most 16, that do. No reflection is among them. If a == b, the first is the identity.

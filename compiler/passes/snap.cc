@@ -1,5 +1,7 @@
 #include "compiler/passes/snap.h"
 
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -69,7 +71,8 @@ Edges EdgesOf(const SnapGraph& graph) {
 }
 
 void ApplySplits(const Edges& edges, std::vector<Split>& splits, SnapGraph& graph) {
-  std::sort(splits.begin(), splits.end(), [](const Split& a, const Split& b) { return std::tie(a.edge, a.t, a.vertex) < std::tie(b.edge, b.t, b.vertex); });
+  std::sort(splits.begin(), splits.end(),
+            [](const Split& a, const Split& b) { return std::tie(a.edge, a.t, a.vertex) < std::tie(b.edge, b.t, b.vertex); });
   std::vector<size_t> first(edges.each.size() + 1, 0);
   for (const Split& split : splits) ++first[split.edge + 1];
   std::partial_sum(first.begin(), first.end(), first.begin());
@@ -158,13 +161,28 @@ void ForEachMeeting(const SnapGraph& graph, const std::vector<SnapSegment>& edge
   }
 }
 
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+// Have at most an end in common: exactly, in the vertices as they are.
+bool MeetAtEndsOnly(const SnapGraph& graph, const SnapSegment& s, const SnapSegment& r) {
+  const auto point = [&graph](uint32_t v) { return Kernel::Point_2(graph.vertices[v].x(), graph.vertices[v].y()); };
+  const bool from_is_common = s.from == r.from || s.from == r.to, to_is_common = s.to == r.from || s.to == r.to;
+  if (!from_is_common && !to_is_common)
+    return !CGAL::do_intersect(Kernel::Segment_2(point(s.from), point(s.to)), Kernel::Segment_2(point(r.from), point(r.to)));
+  const uint32_t common = from_is_common ? s.from : s.to, a = from_is_common ? s.to : s.from, b = r.from == common ? r.to : r.from;
+  return CGAL::orientation(point(common), point(a), point(b)) != CGAL::COLLINEAR ||
+         CGAL::angle(point(a), point(common), point(b)) == CGAL::OBTUSE;
+}
+
 // Segments that cross away from their ends. True if anything changed.
 bool SplitAtCrossings(SnapGraph& graph) {
   const Edges edges = EdgesOf(graph);
+  graph.is_planar = true;
   std::vector<Split> splits;
   std::map<std::pair<double, double>, uint32_t> crossing_vertices;  // the same point for every pair that crosses there
   ForEachMeeting(graph, edges.each, [&](uint32_t i, uint32_t j) {
     const SnapSegment &s = edges.each[i], &r = edges.each[j];
+    graph.is_planar = graph.is_planar && MeetAtEndsOnly(graph, s, r);
     if (s.from == r.from || s.from == r.to || s.to == r.from || s.to == r.to) return;
     const Eigen::Vector2d a = graph.vertices[s.from], u = graph.vertices[s.to] - a, v = graph.vertices[r.to] - graph.vertices[r.from],
                           w = graph.vertices[r.from] - a;
@@ -189,10 +207,10 @@ SnapGraph Snap(const SnapGraph& graph, double radius_m) {
   for (int round = 0; round < kMaxRounds; ++round) {
     const bool touched = SplitAtVertices(out, radius_m);
     const bool crossed = SplitAtCrossings(out);
-    if (!touched && !crossed) break;
+    if (!touched && !crossed) return out;
     out = WeldVertices(out, radius_m);
   }
-  return out;
+  return out;  // not looked at since
 }
 
 }  // namespace plumb::compiler

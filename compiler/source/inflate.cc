@@ -114,7 +114,8 @@ std::vector<Entry> ReadDirectory(const ArchiveBytes& zip) {
 
 bool IsPlanName(std::string_view name) {
   std::string lower(name);
-  std::transform(lower.begin(), lower.end(), lower.begin(), [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  std::transform(lower.begin(), lower.end(), lower.begin(),
+                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
   return lower.ends_with(".ifc") && !lower.starts_with("__macosx/");
 }
 
@@ -129,13 +130,15 @@ Expected<std::string> Extract(const ArchiveBytes& zip, const Entry& entry, size_
   constexpr uint32_t kStored = 0, kDeflated = 8;
   constexpr size_t kLocalSize = 30;
   if (entry.is_encrypted || (entry.method != kStored && entry.method != kDeflated)) {
-    return Fail(ErrorCode::kFileUnreadable, fmt::format("its entry `{}` is encrypted or packed by method {}; stored and deflated ones are read",
-                                                        Printable(entry.name), entry.method));
+    return Fail(ErrorCode::kFileUnreadable,
+                fmt::format("its entry `{}` is encrypted or packed by method {}; stored and deflated ones are read", Printable(entry.name),
+                            entry.method));
   }
   const size_t data = entry.local_header + kLocalSize + zip.U16(entry.local_header + 26) + zip.U16(entry.local_header + 28);
   const std::string_view packed = zip.Part(data, entry.packed_size);
   if (zip.U32(entry.local_header) != kLocalHeader || packed.empty()) {
-    return Fail(ErrorCode::kFileUnreadable, fmt::format("its directory leads to no data for `{}`: it is cut off or damaged", Printable(entry.name)));
+    return Fail(ErrorCode::kFileUnreadable,
+                fmt::format("its directory leads to no data for `{}`: it is cut off or damaged", Printable(entry.name)));
   }
   if (entry.method == kStored && packed.size() > max_bytes) return tl::unexpected(TooLarge(max_bytes));
   Expected<std::string> out = entry.method == kStored ? Expected<std::string>(packed) : Inflate(packed, kRawDeflate, max_bytes);
@@ -154,11 +157,14 @@ Expected<std::string> InflateGzip(std::string_view packed, size_t max_bytes) { r
 Expected<std::string> UnpackPlan(std::string_view archive, size_t max_bytes) {
   const ArchiveBytes zip(archive);
   const std::vector<Entry> entries = ReadDirectory(zip);
-  if (entries.empty()) return Fail(ErrorCode::kFileUnreadable, "the archive has no directory or nothing in it: it is cut off, damaged or empty");
+  if (entries.empty())
+    return Fail(ErrorCode::kFileUnreadable, "the archive has no directory or nothing in it: it is cut off, damaged or empty");
   if (entries.size() == 1) return Extract(zip, entries[0], max_bytes);
   const auto is_plan = [](const Entry& entry) { return IsPlanName(entry.name); };
   const auto plans = std::count_if(entries.begin(), entries.end(), is_plan);
-  if (plans != 1) return Fail(ErrorCode::kFileUnreadable, fmt::format("the archive has {} entries and {} plans (.ifc); it must have one", entries.size(), plans));
+  if (plans != 1)
+    return Fail(ErrorCode::kFileUnreadable,
+                fmt::format("the archive has {} entries and {} plans (.ifc); it must have one", entries.size(), plans));
   return Extract(zip, *std::find_if(entries.begin(), entries.end(), is_plan), max_bytes);
 }
 

@@ -84,7 +84,8 @@ std::string SourceOptions::Check() const {
     return fmt::format("SourceOptions.max_bytes = {}; must be in 1..{}", max_bytes, std::numeric_limits<uint32_t>::max() - 1);
   }
   if (max_unpacked_bytes == 0 || max_unpacked_bytes >= std::numeric_limits<uint32_t>::max()) {
-    return fmt::format("SourceOptions.max_unpacked_bytes = {}; must be in 1..{}", max_unpacked_bytes, std::numeric_limits<uint32_t>::max() - 1);
+    return fmt::format("SourceOptions.max_unpacked_bytes = {}; must be in 1..{}", max_unpacked_bytes,
+                       std::numeric_limits<uint32_t>::max() - 1);
   }
   return {};
 }
@@ -190,7 +191,8 @@ bool IsSupported(const Source& source, DiagnosticSink& diagnostics) {
   diagnostics.Emit(DiagnosticKind::kUnknownFormat, {},
                    source.bytes.empty()
                        ? fmt::format("`{}` is empty", source.path)
-                       : fmt::format("`{}` is {}; a plan is read as IFC in STEP syntax, as a drawing (DXF, SVG), as a mesh or as SDF", source.path, FormatName(source.format)),
+                       : fmt::format("`{}` is {}; a plan is read as IFC in STEP syntax, as a drawing (DXF, SVG), as a mesh or as SDF",
+                                     source.path, FormatName(source.format)),
                    HintFor(source.format));
   return false;
 }

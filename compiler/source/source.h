@@ -26,8 +26,8 @@ struct SourceOptions {
   [[nodiscard]] std::string Check() const;
 };
 
-// Reads the file at `path`, plain, gzip or a ZIP archive with one plan in it (.ifczip), told apart by its first bytes. None: it could not be
-// read or is too large, and an error says so.
+// Reads the file at `path`, plain, gzip or a ZIP archive with one plan in it (.ifczip), told apart by its first bytes. None: it could not
+// be read or is too large, and an error says so.
 [[nodiscard]] std::optional<Source> LoadSource(const std::string& path, DiagnosticSink& diagnostics, const SourceOptions& options = {});
 
 // Told by the first bytes alone, never by the file's name.

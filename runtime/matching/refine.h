@@ -1,4 +1,4 @@
-// Refines a pose on the walls: which map wall lies on which plan face, and the pose that most physical walls agree on.
+// Refines a pose on the walls: the pose that most physical walls agree on.
 #pragma once
 
 #include <Eigen/Core>
@@ -7,15 +7,9 @@
 #include "runtime/matching/map_view.h"
 #include "runtime/matching/plan_index.h"
 #include "runtime/matching/planar_pose.h"
+#include "runtime/matching/wall_pairs.h"
 
 namespace plumb::runtime {
-
-// A map wall on a plan face: the part of the map wall, from p to q (MapView frame), that lies along the face.
-struct WallPair {
-  size_t wall = 0, face = 0;  // MapView::walls, PlanIndex::faces
-  Eigen::Vector2d p = Eigen::Vector2d::Zero(), q = Eigen::Vector2d::Zero();
-  double overlap_m = 0;
-};
 
 // What the walls say about a pose.
 struct WallFit {
@@ -28,12 +22,6 @@ struct WallFit {
   Eigen::Matrix3d place_information = Eigen::Matrix3d::Zero();
   double scale_error = 0, sigma_scale = 1e3;              // how much larger the building is than the plan, 0.01 = 1 %
 };
-
-// Signed distance of the map point p from a plan face under a pose, and its derivatives by (x, y, yaw, scale about the map's centre).
-[[nodiscard]] double FaceDistance(const PlanFace& face, const PlanarPose& pose, const Eigen::Vector2d& p, Eigen::Vector4d* jacobian);
-
-// For each map wall the face that takes most of it, nearest, and the faces in the same plane that take the rest.
-[[nodiscard]] std::vector<WallPair> PairWalls(const PlanIndex& plan, const MapView& map, const PlanarPose& pose);
 
 // From within about 0.4 m and 5 degrees. Tolerates walls that stand off their plan as long as most along each direction do not.
 [[nodiscard]] WallFit RefineOnWalls(const PlanIndex& plan, const MapView& map, const PlanarPose& start);

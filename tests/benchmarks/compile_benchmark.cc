@@ -7,8 +7,6 @@
 // A reader that is not installed, or fails on a plan, shows as `-`. Goals: web-ifc at least 3 times slower on files over 1 MB and on the
 // sum, scan above 300 MB/s, memory under 6 times the file, opening under 2 ms, aliasing forecast under 10 % of the compile; what misses one is marked with `!`.
 #include <fmt/core.h>
-#include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -16,7 +14,6 @@
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
-#include <functional>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -28,13 +25,15 @@
 #include "compiler/source/source.h"
 #include "schema/agraph_reader.h"
 #include "schema/agraph_writer.h"
+#include "tests/benchmarks/child.h"
 
 namespace {
 
 using namespace plumb;
+using bench::InChild;
+using bench::kMegabyte;
 namespace fs = std::filesystem;
 
-constexpr double kMegabyte = 1e6;
 constexpr double kLarge_mb = 1, kMinRatio = 3, kMinScan_mb_s = 300, kMaxMemoryRatio = 6, kMaxOpen_ms = 2, kMaxForecast = 0.1;
 constexpr int kChild_s = 300;  // for a reader to finish a plan
 
@@ -67,34 +66,6 @@ double Best(int runs, Function once) {
   double best = once();
   for (int i = 1; i < runs; ++i) best = std::min(best, once());
   return best;
-}
-
-struct Measured {
-  double value = 0, peak_mb = 0;
-};
-
-// Runs `work` in a child, so that its memory is its own. None: the child failed.
-std::optional<Measured> InChild(const std::function<double()>& work) {
-  int ends[2];
-  if (pipe(ends) != 0) return std::nullopt;
-  std::fflush(nullptr);
-  const pid_t child = fork();
-  if (child < 0) return std::nullopt;
-  if (child == 0) {
-    const double value = work();
-    const bool told = write(ends[1], &value, sizeof(value)) == sizeof(value);
-    _exit(told ? 0 : 1);
-  }
-  close(ends[1]);
-  Measured out;
-  const bool heard = read(ends[0], &out.value, sizeof(out.value)) == sizeof(out.value);
-  close(ends[0]);
-  int status = 0;
-  rusage used{};
-  wait4(child, &status, 0, &used);
-  out.peak_mb = static_cast<double>(used.ru_maxrss) * 1024 / kMegabyte;
-  if (!heard || !WIFEXITED(status) || WEXITSTATUS(status) != 0) return std::nullopt;
-  return out;
 }
 
 std::optional<std::string> OutputOf(const std::string& command) {

@@ -4,50 +4,43 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <unordered_map>
 
 #include "compiler/frontends/drawing/plane.h"
+#include "compiler/geometry/cell_lists.h"
 
 namespace plumb::compiler {
 namespace {
 
-// Makes points within a radius one; looks points up in a grid of cells of that size.
+// Makes points within a radius one: the earliest.
 class PointWelder {
  public:
-  explicit PointWelder(double radius_m) : radius_m_(radius_m) {}
+  explicit PointWelder(double radius_m) : radius_m_(radius_m), cells_(radius_m) {}
 
   uint32_t FindOrAdd(const Eigen::Vector2d& p) {
-    const int64_t x = CellOf(p.x()), y = CellOf(p.y());
-    for (int64_t dx = -1; dx <= 1; ++dx) {
-      for (int64_t dy = -1; dy <= 1; ++dy) {
-        const auto cell = cells_.find(Key(x + dx, y + dy));
-        for (uint32_t i = cell == cells_.end() ? kEnd : cell->second; i != kEnd; i = next_[i]) {
-          if ((points_[i] - p).squaredNorm() <= radius_m_ * radius_m_) return i;
-        }
-      }
-    }
-    const auto id = static_cast<uint32_t>(points_.size());
-    const auto [at, added] = cells_.emplace(Key(x, y), id);
-    next_.push_back(added ? kEnd : at->second);
-    at->second = id;
+    auto found = static_cast<uint32_t>(points_.size());
+    cells_.ForEachNear(p, [&](uint32_t i) {
+      if (i < found && (points_[i] - p).squaredNorm() <= radius_m_ * radius_m_) found = i;
+    });
+    if (found < points_.size()) return found;
+    cells_.Add(p);
     points_.push_back(p);
-    return id;
+    return found;
   }
   std::vector<Eigen::Vector2d>& points() { return points_; }
 
  private:
-  static constexpr uint32_t kEnd = 0xffffffffu;
-  [[nodiscard]] int64_t CellOf(double v) const { return static_cast<int64_t>(std::floor(v / radius_m_)); }
-  static uint64_t Key(int64_t x, int64_t y) { return static_cast<uint64_t>(x) * 0x9e3779b97f4a7c15ull ^ static_cast<uint64_t>(y); }
-
   double radius_m_;
   std::vector<Eigen::Vector2d> points_;
-  std::vector<uint32_t> next_;
-  std::unordered_map<uint64_t, uint32_t> cells_;
+  CellLists cells_;
 };
 
 struct Segment {
   uint32_t a, b, source;
+};
+
+// Where a segment is cut.
+struct Stop {
+  uint32_t segment, vertex;
 };
 
 // Cuts the lines where they cross or touch.
@@ -66,21 +59,21 @@ class Splitter {
       box.max().array() += join_m;
       boxes.push_back(box);
     }
-    cuts_.resize(segments_.size());
     tree_ = BoxTree<2>(boxes);
     boxes_ = std::move(boxes);
   }
 
   // False: too many crossings.
   bool Run() {
+    std::vector<uint32_t> near;
     for (uint32_t i = 0; i < segments_.size(); ++i) {
-      std::vector<uint32_t> near;
+      near.clear();
       tree_.ForEachIn(boxes_[i], [&](uint32_t j) {
         if (j > i) near.push_back(j);
       });
       std::sort(near.begin(), near.end());
       for (const uint32_t j : near) Cut(i, j);
-      if (welder_.points().size() + count_ > max_vertices_) return false;
+      if (welder_.points().size() + cuts_.size() > max_vertices_) return false;
     }
     return true;
   }
@@ -88,12 +81,15 @@ class Splitter {
   std::vector<LineMap::Edge> Edges() {
     std::vector<LineMap::Edge> out;
     std::vector<std::pair<double, uint32_t>> stops;
+    std::stable_sort(cuts_.begin(), cuts_.end(), [](const Stop& x, const Stop& y) { return x.segment < y.segment; });
+    auto cut = cuts_.begin();
     for (size_t i = 0; i < segments_.size(); ++i) {
       stops.clear();
       const Segment& s = segments_[i];
       const Eigen::Vector2d a = Point(s.a), d = Point(s.b) - a;
       stops.emplace_back(0.0, s.a);
-      for (const uint32_t v : cuts_[i]) stops.emplace_back(d.dot(Point(v) - a) / d.squaredNorm(), v);
+      for (; cut != cuts_.end() && cut->segment == i; ++cut)
+        stops.emplace_back(d.dot(Point(cut->vertex) - a) / d.squaredNorm(), cut->vertex);
       stops.emplace_back(1.0, s.b);
       std::sort(stops.begin(), stops.end());
       for (size_t k = 0; k + 1 < stops.size(); ++k) {
@@ -121,8 +117,7 @@ class Splitter {
 
   void AddCut(uint32_t segment, uint32_t vertex) {
     if (vertex == segments_[segment].a || vertex == segments_[segment].b) return;
-    cuts_[segment].push_back(vertex);
-    ++count_;
+    cuts_.push_back({segment, vertex});
   }
 
   void Cut(uint32_t i, uint32_t j) {
@@ -146,10 +141,10 @@ class Splitter {
   }
 
   double join_m_;
-  size_t max_vertices_, count_ = 0;
+  size_t max_vertices_;
   PointWelder welder_;
   std::vector<Segment> segments_;
-  std::vector<std::vector<uint32_t>> cuts_;
+  std::vector<Stop> cuts_;
   std::vector<Eigen::AlignedBox2d> boxes_;
   BoxTree<2> tree_;
 };
@@ -176,15 +171,17 @@ std::optional<LineMap> LineMap::Build(std::span<const MapLine> lines, double joi
 
 void LineMap::TraceFaces() {
   const auto count = static_cast<uint32_t>(2 * edges_.size());
-  std::vector<std::vector<uint32_t>> leaving(vertices_.size());
-  for (uint32_t h = 0; h < count; ++h) leaving[From(h)].push_back(h);
-  next_.assign(count, 0);
   degree_.assign(vertices_.size(), 0);
+  for (uint32_t h = 0; h < count; ++h) ++degree_[From(h)];
+  std::vector<uint32_t> first(vertices_.size() + 1, 0), leaving(count);  // half-edges by the vertex that they leave
+  std::partial_sum(degree_.begin(), degree_.end(), first.begin() + 1);
+  std::vector<uint32_t> at(first.begin(), first.end() - 1);
+  for (uint32_t h = 0; h < count; ++h) leaving[at[From(h)]++] = h;
+  next_.assign(count, 0);
   std::vector<std::pair<double, uint32_t>> fan;
-  for (size_t v = 0; v < leaving.size(); ++v) {
-    degree_[v] = static_cast<uint32_t>(leaving[v].size());
+  for (size_t v = 0; v < vertices_.size(); ++v) {
     fan.clear();
-    for (const uint32_t h : leaving[v]) {
+    for (const uint32_t h : std::span(leaving).subspan(first[v], degree_[v])) {
       const Eigen::Vector2d d = ToPoint(h) - FromPoint(h);
       fan.emplace_back(std::atan2(d.y(), d.x()), h);
     }
@@ -235,7 +232,10 @@ void LineMap::PlaceHoles(const std::vector<uint32_t>& loops, const std::vector<d
                    [&](uint32_t x, uint32_t y) { return vertices_[leftmost[x]].x() < vertices_[leftmost[y]].x(); });
   for (const uint32_t l : holes) {
     const Eigen::Vector2d p = vertices_[leftmost[l]];
-    const auto other = [&](uint32_t e) { return face_[2 * e] != l && face_[2 * e + 1] != l; };
+    // An edge within the loop that leaves this very vertex goes to the right, but by rounding the ray may meet its end.
+    const auto other = [&](uint32_t e) {
+      return face_[2 * e] != l && face_[2 * e + 1] != l && edges_[e].a != leftmost[l] && edges_[e].b != leftmost[l];
+    };
     const std::optional<RayHit> hit = Cast(p, -Eigen::Vector2d::UnitX(), p.x() - box_.min().x() + 1.0, other);
     const uint32_t face = hit ? face_of_loop[face_[2 * hit->edge + (hit->on_left ? 0 : 1)]] : 0;
     face_of_loop[l] = face;

@@ -3,12 +3,16 @@
 #include <algorithm>
 #include <limits>
 
+#include "compiler/frontends/drawing/arc_band.h"
+#include "compiler/frontends/drawing/arc_fit.h"
 #include "compiler/frontends/drawing/plane.h"
 #include "compiler/frontends/drawing/units.h"
 #include "compiler/geometry/box_tree.h"
 
 namespace plumb::compiler {
 namespace {
+
+constexpr double kOffArc_m = 0.01;  // what a curve's steps may be off its arc
 
 double LengthOf(const DrawnPath& path) {
   double out = 0;
@@ -49,26 +53,53 @@ class Widener {
     ends_ = BoxTree<2>(std::move(ends));
   }
 
-  // One box for each side, longer by half of the thickness where another side or stroke goes on, so that corners close.
-  void AddBoxes(const DrawnPath& path, std::vector<DrawnPath>& out) const {
-    const double half = 0.5 * path.stroke_m;
-    const size_t sides = path.points.size() - (path.closed ? 0 : 1);
-    for (size_t i = 0; i < sides; ++i) {
-      const Eigen::Vector2d a = path.points[i], b = path.points[(i + 1) % path.points.size()], d = b - a;
-      if (d.norm() <= 0) continue;
-      const Eigen::Vector2d along = half * d.normalized(), side = Perp(along);
-      const Eigen::Vector2d from = path.closed || i > 0 || Meets(a, half) ? a - along : a;
-      const Eigen::Vector2d to = path.closed || i + 1 < sides || Meets(b, half) ? b + along : b;
-      DrawnPath box = path;
-      box.role = LineRole::kWall;
-      box.points = {from - side, to - side, to + side, from + side};
-      box.closed = box.filled = true;
-      box.arcs.clear();
-      out.push_back(std::move(box));
+  // One strip for each arc and one box for each other side, longer by half of the thickness where another side or stroke goes on, so that
+  // corners close.
+  void AddWalls(const DrawnPath& path, std::vector<DrawnPath>& out) const {
+    std::vector<Eigen::Vector2d> points = path.points;
+    if (path.closed) points.push_back(points.front());
+    ArcFitOptions options;
+    options.max_off = kOffArc_m;
+    size_t at = 0;
+    for (const ArcRun& run : FindArcRuns(points, options)) {
+      if (run.arc.radius_m <= path.stroke_m) continue;
+      for (; at < run.first; ++at) AddBox(path, points, at, out);
+      AddStrips(path, points, run, out);
+      at = run.last;
     }
+    for (; at + 1 < points.size(); ++at) AddBox(path, points, at, out);
   }
 
  private:
+  // How much longer the wall is that has this point of the stroke for its end.
+  double Longer_m(const DrawnPath& path, const std::vector<Eigen::Vector2d>& points, size_t end) const {
+    const double half = 0.5 * path.stroke_m;
+    return path.closed || (end > 0 && end + 1 < points.size()) || Meets(points[end], half) ? half : 0;
+  }
+
+  void AddBox(const DrawnPath& path, const std::vector<Eigen::Vector2d>& points, size_t i, std::vector<DrawnPath>& out) const {
+    const Eigen::Vector2d d = points[i + 1] - points[i];
+    if (d.norm() <= 0) return;
+    const Eigen::Vector2d along = d.normalized(), side = 0.5 * path.stroke_m * Perp(along);
+    const Eigen::Vector2d from = points[i] - Longer_m(path, points, i) * along, to = points[i + 1] + Longer_m(path, points, i + 1) * along;
+    AddWall(path, {from - side, to - side, to + side, from + side}, {}, out);
+  }
+
+  void AddStrips(const DrawnPath& path, const std::vector<Eigen::Vector2d>& points, const ArcRun& run, std::vector<DrawnPath>& out) const {
+    for (ArcBand& band : BandsAlong(run.arc, 0.5 * path.stroke_m, Longer_m(path, points, run.first), Longer_m(path, points, run.last)))
+      AddWall(path, std::move(band.outline), {band.sides.begin(), band.sides.end()}, out);
+  }
+
+  static void AddWall(const DrawnPath& path, std::vector<Eigen::Vector2d> outline, std::vector<Arc> sides, std::vector<DrawnPath>& out) {
+    DrawnPath wall = path;
+    wall.role = LineRole::kWall;
+    wall.points = std::move(outline);
+    wall.closed = wall.filled = true;
+    wall.curved = !sides.empty();
+    wall.arcs = std::move(sides);
+    out.push_back(std::move(wall));
+  }
+
   // Another stroke's end besides the one at `p`.
   bool Meets(const Eigen::Vector2d& p, double reach) const {
     int count = 0;
@@ -100,7 +131,7 @@ void WidenStrokes(Drawing& drawing, const StrokeOptions& options) {
   std::vector<DrawnPath> out;
   for (DrawnPath& path : drawing.paths) {
     if (is_wall(path)) {
-      widener.AddBoxes(path, out);
+      widener.AddWalls(path, out);
       continue;
     }
     if (by_thickness && path.role == LineRole::kAny) path.role = LineRole::kOpening;

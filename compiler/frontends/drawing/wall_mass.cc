@@ -5,11 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <set>
 
 #include "compiler/frontends/drawing/curve_edges.h"
 #include "compiler/frontends/drawing/plane.h"
+#include "compiler/frontends/drawing/single_lines.h"
 #include "compiler/geometry/box_tree.h"
 #include "schema/polygon.h"
 
@@ -17,7 +19,6 @@ namespace plumb::compiler {
 namespace {
 
 constexpr uint32_t kClosing = 0xfffffffeu;  // source of a line that the drawing does not have
-constexpr uint32_t kSingle = 0xfffffffdu;   // of the outline of a wall drawn as one line
 constexpr double kParallel = 0.97, kSquare = 0.35, kBeside = 0.05;
 constexpr double kBeside_m = 0.02;   // from a room's outline into the room
 constexpr double kAround_m = 0.1;    // ... to the walls around it
@@ -60,7 +61,9 @@ class MassFinder {
       out_.single_lines = true;
       out_.single_m = single_m;
     }
-    FindCurves(drawing_, paths_, out_);
+    std::vector<SourcedArc> arcs = ArcsOf(drawing_, paths_);
+    arcs.insert(arcs.end(), sides_.begin(), sides_.end());
+    FindCurves(drawing_, arcs, out_);
     return std::move(out_);
   }
 
@@ -131,7 +134,8 @@ class MassFinder {
     ExtendToLines(ends);
     JoinNearest(ends, options_.max_thickness_m, [&](const LooseEnd& a, const LooseEnd& b) {
       const Eigen::Vector2d d = b.at - a.at;
-      return a.out.dot(b.out) > kParallel && std::abs(d.dot(a.out)) <= kSquare * d.norm() && std::min(a.length_m, b.length_m) > 0.5 * d.norm();
+      return a.out.dot(b.out) > kParallel && std::abs(d.dot(a.out)) <= kSquare * d.norm() &&
+             std::min(a.length_m, b.length_m) > 0.5 * d.norm();
     });
     CapAtCorners(ends);
     JoinNearest(ends, options_.max_break_m, [](const LooseEnd&, const LooseEnd&) { return true; });
@@ -287,38 +291,13 @@ class MassFinder {
     out_.single_lines = out_.single_m > 0 && bounding_m <= options_.max_double_share * (bounding_m + out_.single_m);
   }
 
-  // Each as a box around the line, half a thickness longer at ends that others meet, so that corners close.
   void AddSingleLines() {
-    std::vector<MapLine> singles;
-    for (uint32_t e = 0; e < Map().edges().size(); ++e) {
-      if (IsSingle(e)) singles.push_back({Map().FromPoint(2 * e), Map().ToPoint(2 * e), Map().edges()[e].source});
-    }
-    lines_.clear();
-    for (uint32_t e = 0; e < Map().edges().size(); ++e) {
-      if (!IsSingle(e)) lines_.push_back({Map().FromPoint(2 * e), Map().ToPoint(2 * e), Map().edges()[e].source});
-    }
-    const std::vector<MapLine> walls = MergeCollinear(std::move(singles), options_.join_m);
-    std::vector<Eigen::AlignedBox2d> boxes;
-    for (const MapLine& s : walls) boxes.emplace_back(s.a.cwiseMin(s.b), s.a.cwiseMax(s.b));
-    const BoxTree<2> tree(std::move(boxes));
-    const Eigen::Vector2d reach = Eigen::Vector2d::Constant(2 * options_.join_m);
-    const auto is_met = [&](const Eigen::Vector2d& end, size_t own) {
-      bool met = false;
-      tree.ForEachIn({end - reach, end + reach}, [&](uint32_t i) {
-        met = met || (i != own && DistanceToLine(end, walls[i].a, walls[i].b) <= 2 * options_.join_m);
-      });
-      return met;
-    };
-    for (size_t i = 0; i < walls.size(); ++i) {
-      const MapLine& s = walls[i];
-      const Eigen::Vector2d d = s.b - s.a;
-      if (d.norm() < options_.min_single_m) continue;
-      const Eigen::Vector2d along = 0.5 * options_.single_line_thickness_m * d.normalized(), side = Perp(along);
-      const Eigen::Vector2d a = is_met(s.a, i) ? Eigen::Vector2d(s.a - along) : s.a, b = is_met(s.b, i) ? Eigen::Vector2d(s.b + along) : s.b;
-      std::vector<Eigen::Vector2d> box = {a - side, b - side, b + side, a + side};
-      for (size_t k = 0; k < 4; ++k) lines_.push_back({box[k], box[(k + 1) % 4], kSingle});
-      fills_.push_back(std::move(box));
-    }
+    std::vector<bool> is_single;
+    for (uint32_t e = 0; e < Map().edges().size(); ++e) is_single.push_back(IsSingle(e));
+    WidenedLines widened = WidenSingleLines(Map(), is_single, ArcsOf(drawing_, paths_), options_);
+    lines_ = std::move(widened.lines);
+    std::move(widened.outlines.begin(), widened.outlines.end(), std::back_inserter(fills_));
+    sides_ = std::move(widened.arcs);
   }
 
   const Drawing& drawing_;
@@ -326,6 +305,7 @@ class MassFinder {
   const MassOptions& options_;
   std::vector<MapLine> lines_;
   std::vector<std::vector<Eigen::Vector2d>> fills_;
+  std::vector<SourcedArc> sides_;  // of arcs that were given a thickness
   WallMass out_;
 };
 
@@ -333,7 +313,8 @@ class MassFinder {
 
 std::string MassOptions::Check() const {
   if (!(join_m > 0 && join_m < 0.05)) return fmt::format("MassOptions.join_m = {}; must be in (0, 0.05)", join_m);
-  if (!(max_thickness_m > 0.1 && max_thickness_m < 3)) return fmt::format("MassOptions.max_thickness_m = {}; must be in (0.1, 3)", max_thickness_m);
+  if (!(max_thickness_m > 0.1 && max_thickness_m < 3))
+    return fmt::format("MassOptions.max_thickness_m = {}; must be in (0.1, 3)", max_thickness_m);
   if (!(single_line_thickness_m > 0.01 && single_line_thickness_m < 1))
     return fmt::format("MassOptions.single_line_thickness_m = {}; must be in (0.01, 1)", single_line_thickness_m);
   return {};

@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <istream>
 #include <streambuf>
 #include <string_view>
+#include <utility>
 
 #include "compiler/frontends/dxf/dxf_builder.h"
 #include "compiler/frontends/dxf/dxf_groups.h"
@@ -19,6 +21,7 @@ namespace {
 
 constexpr double kInPlane = 0.99;  // of the extrusion's direction along z
 constexpr size_t kMaxValue = 1000;
+constexpr const char* kNothing = "NOTHING";  // a type that dxflib does not know
 
 using Groups = std::vector<DxfGroup>;
 
@@ -72,6 +75,25 @@ void MendCounts(Groups& groups) {
 bool IsNeeded(int code, const std::string& type) {
   if (code == 62) return type == "LAYER";  // negative: off
   return code < 300 && code != 5 && code != 6 && code != 48 && code != 100 && code != 102;
+}
+
+// A line whose four numbers are plain. dxflib takes most of the time of a large drawing for turning texts into numbers, and most of such a
+// drawing is lines; of what is not plain it says what it is.
+std::optional<DL_LineData> PlainLine(const Groups& groups) {
+  constexpr std::array<int, 4> kCodes = {10, 20, 11, 21};
+  if (groups[0].value != "LINE") return std::nullopt;
+  std::array<std::optional<double>, kCodes.size()> values;
+  for (const DxfGroup& g : groups) {
+    const auto* code = std::find(kCodes.begin(), kCodes.end(), g.code);
+    if (code == kCodes.end()) continue;
+    double value = 0;
+    const char* end = g.value.data() + g.value.size();
+    const auto [stop, error] = std::from_chars(g.value.data(), end, value);
+    if (error != std::errc() || stop != end || !std::isfinite(value)) return std::nullopt;
+    values[static_cast<size_t>(code - kCodes.begin())] = value;
+  }
+  if (!values[0] || !values[1] || !values[2] || !values[3]) return std::nullopt;
+  return DL_LineData(*values[0], *values[1], 0, *values[2], *values[3], 0);
 }
 
 // Lets a stream read a text in place.
@@ -143,11 +165,19 @@ class Feeder {
     }
     if (type == "ENDSEC") section_.clear();
     if ((section_ == "BLOCKS" || section_ == "ENTITIES") && type != "SECTION" && KnownDxfType(type).empty()) ++out_.not_read[type];
-    MendCounts(groups);
-    Feed(0, type);
-    builder_.Begin(HeaderOf(groups));
-    for (size_t i = 1; i < groups.size(); ++i) {
-      if (IsNeeded(groups[i].code, type)) Feed(groups[i].code, groups[i].value);
+    if (const std::optional<DL_LineData> line = PlainLine(groups)) {
+      // What dxflib still has comes first: it makes that at the start of something else.
+      if (std::exchange(pending_, false)) Feed(0, kNothing);
+      builder_.Begin(HeaderOf(groups));
+      builder_.addLine(*line);
+    } else {
+      MendCounts(groups);
+      Feed(0, type);
+      pending_ = true;
+      builder_.Begin(HeaderOf(groups));
+      for (size_t i = 1; i < groups.size(); ++i) {
+        if (IsNeeded(groups[i].code, type)) Feed(groups[i].code, groups[i].value);
+      }
     }
     if (!builder_.full()) return true;
     sink_.Emit(DiagnosticKind::kPlanTooComplex, {groups[0].line, 0, {}, type, 0},
@@ -179,7 +209,7 @@ class Feeder {
   DiagnosticSink& sink_;
   Groups entity_;
   std::string section_;
-  bool ended_ = false, saw_entities_ = false;
+  bool ended_ = false, saw_entities_ = false, pending_ = false;
 };
 
 }  // namespace

@@ -42,6 +42,8 @@ inline constexpr size_t kMapEastings = 2, kMapNorthings = 3;
 // Placements and transformations.
 inline constexpr size_t kCoordinates = 0, kDirectionRatios = 0, kVectorOrientation = 0, kVectorMagnitude = 1;
 inline constexpr size_t kLocation = 0, kAxis = 1, kRefDirection3D = 2, kRefDirection2D = 1;
+inline constexpr size_t kGridUAxes = 7, kGridVAxes = 8, kGridWAxes = 9, kGridAxisCurve = 1, kGridAxisSameSense = 2;
+inline constexpr size_t kIntersectingAxes = 0, kGridOffsets = 1;  // IfcVirtualGridIntersection
 inline constexpr size_t kPlacementRelTo = 0, kRelativePlacement = 1, kLinearCartesianPosition = 2;
 inline constexpr size_t kOperatorAxis1 = 0, kOperatorAxis2 = 1, kOperatorOrigin = 2, kOperatorScale = 3, kOperatorAxis3 = 4;
 inline constexpr size_t kOperatorScale2In2D = 4, kOperatorScale2 = 5, kOperatorScale3 = 6;

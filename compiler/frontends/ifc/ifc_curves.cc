@@ -7,6 +7,7 @@
 #include <numbers>
 #include <optional>
 
+#include "compiler/geometry/b_spline.h"
 #include "compiler/geometry/sweep.h"
 
 namespace plumb::compiler {
@@ -65,52 +66,6 @@ std::vector<double> Numbers(StepValue list) {
   std::vector<double> out;
   for (const StepValue item : list.Items()) out.push_back(item.Real().value_or(0));
   return out;
-}
-
-// Expands knots by their multiplicities; empty if they do not fit to `points` control points of `degree`.
-std::vector<double> ExpandKnots(StepValue knots, StepValue multiplicities, size_t degree, size_t points) {
-  const std::vector<double> values = Numbers(knots), counts = Numbers(multiplicities);
-  std::vector<double> out;
-  if (values.size() != counts.size()) return out;
-  for (size_t i = 0; i < values.size(); ++i) {
-    if (counts[i] < 1 || counts[i] > double(degree + 1) || (i > 0 && values[i] < values[i - 1])) return {};
-    out.insert(out.end(), static_cast<size_t>(counts[i]), values[i]);
-  }
-  if (out.size() != points + degree + 1) out.clear();
-  return out;
-}
-
-// De Boor's algorithm on homogeneous points.
-Eigen::Vector4d EvaluateSpline(const std::vector<Eigen::Vector4d>& points, const std::vector<double>& knots, size_t degree, double u) {
-  size_t span = degree;
-  while (span + 1 < points.size() && u >= knots[span + 1]) ++span;
-  std::vector<Eigen::Vector4d> d(points.begin() + static_cast<std::ptrdiff_t>(span - degree),
-                                 points.begin() + static_cast<std::ptrdiff_t>(span + 1));
-  for (size_t r = 1; r <= degree; ++r) {
-    for (size_t j = degree; j >= r; --j) {
-      const double low = knots[j + span - degree], high = knots[j + 1 + span - r];
-      const double t = high > low ? (u - low) / (high - low) : 0;
-      d[j] = (1 - t) * d[j - 1] + t * d[j];
-    }
-  }
-  return d[degree];
-}
-
-// Flat steps over [low, high] for which the middle of each keeps within the tolerance of its chord; a power of two.
-template <class At>
-int SplineSteps(const At& at, double low, double high, double tolerance_m) {
-  constexpr int kMin = 8, kMax = 64;
-  for (int steps = kMin; steps < kMax; steps *= 2) {
-    double worst_m = 0;
-    for (int i = 0; i < steps; ++i) {
-      const auto u = [&](double step) { return low + (high - low) * step / steps; };
-      const Vector3d start = at(u(i)), chord = at(u(i + 1)) - start, middle = at(u(i + 0.5)) - start;
-      const double length2 = chord.squaredNorm();
-      worst_m = std::max(worst_m, (middle - (length2 > 0 ? std::clamp(middle.dot(chord) / length2, 0.0, 1.0) : 0.0) * chord).norm());
-    }
-    if (worst_m <= tolerance_m) return steps;
-  }
-  return kMax;
 }
 
 }  // namespace
@@ -337,37 +292,28 @@ CurvePoints CurveReader::Indexed(const IfcInstance& curve) const {
 }
 
 CurvePoints CurveReader::Spline(const IfcInstance& curve, const CurveTrim& a, const CurveTrim& b) const {
-  CurvePoints out;
+  constexpr int64_t kMaxDegree = 16;
   const auto degree = curve[attribute::kSplineDegree].Integer().value_or(0);
-  std::vector<Eigen::Vector4d> points;
-  for (const Vector3d& p : Points(curve[attribute::kSplinePoints], curve.index)) points.push_back(p.homogeneous());
+  BSpline spline;
+  for (const Vector3d& p : Points(curve[attribute::kSplinePoints], curve.index)) spline.points.push_back(p.homogeneous());
   if (curve.type == IfcType::kIfcRationalBSplineCurveWithKnots) {
     const std::vector<double> weights = Numbers(curve[attribute::kSplineWeights]);
-    for (size_t i = 0; i < std::min(weights.size(), points.size()); ++i) points[i] *= weights[i];
+    for (size_t i = 0; i < std::min(weights.size(), spline.points.size()); ++i) spline.points[i] *= weights[i];
   }
-  std::vector<double> knots;
-  if (degree >= 1 && degree <= 16 && points.size() > static_cast<size_t>(degree)) {
-    knots =
-        ExpandKnots(curve[attribute::kSplineKnots], curve[attribute::kSplineMultiplicities], static_cast<size_t>(degree), points.size());
+  if (degree >= 1 && degree <= kMaxDegree && spline.points.size() > static_cast<size_t>(degree)) {
+    spline.degree = static_cast<size_t>(degree);
+    spline.knots = ExpandKnots(Numbers(curve[attribute::kSplineKnots]), Numbers(curve[attribute::kSplineMultiplicities]), spline.degree,
+                               spline.points.size());
   }
-  if (knots.empty()) {
+  if (spline.knots.empty()) {
     model_.Emit(DiagnosticKind::kBadAttribute, curve.index,
                 fmt::format("the knots of {} do not fit to its points and degree", model_.Label(curve.index)));
-    return out;
+    return {};
   }
-  const auto p = static_cast<size_t>(degree);
-  const auto at = [&](double u) -> Vector3d {
-    const Eigen::Vector4d q = EvaluateSpline(points, knots, p, u);
-    return q.w() != 0 ? Vector3d(q.head<3>() / q.w()) : Vector3d::Zero();
-  };
-  const double from = a.parameter.value_or(knots.front()), to = b.parameter.value_or(knots.back());
-  for (size_t span = p; span < points.size(); ++span) {
-    const double low = std::max(knots[span], std::min(from, to)), high = std::min(knots[span + 1], std::max(from, to));
-    if (!(high > low)) continue;
-    const int steps = SplineSteps(at, low, high, chord_tolerance_m_);
-    for (int i = out.points.empty() ? 0 : 1; i <= steps; ++i) out.points.push_back(at(low + (high - low) * i / steps));
-    if (TooLong(out.points.size(), curve.index)) return {};
-  }
+  const double from = a.parameter.value_or(spline.first()), to = b.parameter.value_or(spline.last());
+  CurvePoints out;
+  out.points = spline.Sample(std::min(from, to), std::max(from, to), chord_tolerance_m_, kMaxCurvePoints);
+  if (TooLong(out.points.size(), curve.index)) return {};
   return out;
 }
 

@@ -16,6 +16,7 @@
 #include "compiler/frontends/ifc/ifc_product_table.h"
 #include "compiler/frontends/ifc/ifc_relations.h"
 #include "compiler/frontends/ifc/ifc_shape.h"
+#include "compiler/frontends/ifc/ifc_storeys.h"
 #include "compiler/frontends/ifc/ifc_units.h"
 #include "compiler/frontends/ifc/ifc_wall_proxies.h"
 
@@ -57,12 +58,13 @@ class Frontend {
   PlanIr Run() {
     if (model_.is_too_complex()) return {};
     if (!HasBuilding()) {
-      model_.Emit(DiagnosticKind::kNoBuilding, kNone,
-                  fmt::format("none of the {} instances of the file is a building, a storey, a space or a building element", model_.size()));
+      model_.Emit(
+          DiagnosticKind::kNoBuilding, kNone,
+          fmt::format("none of the {} instances of the file is a building, a storey, a space or a building element", model_.size()));
       return {};
     }
     ReadNorth();
-    ReadStoreys();
+    plan_.storeys = storeys_.Read(model_, placements_);
     MakeElements();
     MakeOpenings();
     ReadSpaces();
@@ -95,40 +97,6 @@ class Frontend {
     }
   }
 
-  void ReadStoreys() {
-    struct Entry {
-      uint32_t instance;
-      PlanStorey storey;
-    };
-    std::vector<Entry> entries;
-    for (const uint32_t instance : model_.InstancesOf(IfcType::kIfcBuildingStorey)) {
-      const IfcInstance storey = model_.Get(instance);
-      PlanStorey out;
-      out.location = model_.Location(instance);
-      out.guid = out.location.guid;
-      out.name = TextOf(instance, attribute::kName);
-      if (out.name.empty()) out.name = TextOf(instance, attribute::kSpatialLongName);
-      if (storey[attribute::kPlacement].is_null()) {
-        out.elevation_m = model_.Length(storey, attribute::kStoreyElevation);
-      } else {
-        out.elevation_m = placements_.ObjectPlacement(storey[attribute::kPlacement]).translation().z();
-      }
-      entries.push_back({instance, std::move(out)});
-    }
-    std::stable_sort(entries.begin(), entries.end(),
-                     [](const Entry& a, const Entry& b) { return a.storey.elevation_m < b.storey.elevation_m; });
-    storey_of_.assign(model_.size(), kNoIndex);
-    for (Entry& entry : entries) {
-      storey_of_[entry.instance] = static_cast<uint32_t>(plan_.storeys.size());
-      plan_.storeys.push_back(std::move(entry.storey));
-    }
-  }
-
-  uint32_t StoreyOf(uint32_t instance) const {
-    const uint32_t storey = relations_.StoreyOf(instance);
-    return storey == kNone ? kNoIndex : storey_of_[storey];
-  }
-
   PlanElement BaseElement(const Product& product) const {
     PlanElement element;
     element.kind = product.kind;
@@ -136,7 +104,7 @@ class Frontend {
     element.guid = element.location.guid;
     element.type = element.location.type;
     element.name = TextOf(product.instance, attribute::kName);
-    element.storey = StoreyOf(product.instance);
+    element.storey = storeys_.Of(relations_.StoreyOf(product.instance));
     element.external = relations_.IsExternal(product.instance).value_or(false);
     return element;
   }
@@ -163,6 +131,7 @@ class Frontend {
 
   void MakeElements() {
     element_of_.assign(products_.size(), kNoIndex);
+    plan_.elements.reserve(products_.size() + products_.CountFillings());  // of a door or window, its panes are one more
     for (uint32_t p = 0; p < products_.size(); ++p) {
       const Product& product = products_[p];
       if (product.whole != kNoIndex) continue;
@@ -192,7 +161,7 @@ class Frontend {
   // A shop front that is nothing but its doors.
   bool IsMadeOfFillings(const Product& product) const {
     return product.kind == ElementKind::kCurtainWall &&
-           std::any_of(product.fillings.begin(), product.fillings.end(), [&](uint32_t f) { return !products_[f].parts.empty(); });
+           std::any_of(product.fillings.begin(), product.fillings.end(), [&](uint32_t f) { return products_[f].has_body; });
   }
 
   bool HasUncut(uint32_t p) const {
@@ -203,10 +172,12 @@ class Frontend {
   bool ActsAsWall(uint32_t p) const {
     const Product& product = products_[p];
     if (!IsWallShaped(product.parts)) return false;
-    const bool is_named = IsWallName(TextOf(product.instance, attribute::kName)) || IsWallName(TextOf(product.instance, attribute::kObjectType));
+    const bool is_named =
+        IsWallName(TextOf(product.instance, attribute::kName)) || IsWallName(TextOf(product.instance, attribute::kObjectType));
     if (!is_named && !openings_.HasOpenings(p)) return false;
-    model_.Emit(DiagnosticKind::kProxyAsWall, product.instance,
-                fmt::format("{} is taken for a wall by its shape and its {}", model_.Label(product.instance), is_named ? "name" : "openings"));
+    model_.Emit(
+        DiagnosticKind::kProxyAsWall, product.instance,
+        fmt::format("{} is taken for a wall by its shape and its {}", model_.Label(product.instance), is_named ? "name" : "openings"));
     return true;
   }
 
@@ -314,7 +285,7 @@ class Frontend {
       space.guid = space.location.guid;
       space.name = TextOf(instance, attribute::kName);
       space.long_name = TextOf(instance, attribute::kSpatialLongName);
-      space.storey = StoreyOf(instance);
+      space.storey = storeys_.Of(relations_.StoreyOf(instance));
       for (ShapePart& part : products_.PlacedBody(instance)) AppendSolid(std::move(part.solid), space.body);
       plan_.spaces.push_back(std::move(space));
     }
@@ -326,11 +297,11 @@ class Frontend {
   StyleReader styles_;
   ShapeReader shapes_;
   Relations relations_;
+  StoreyTable storeys_;
   ProductTable products_;
   OpeningTable openings_;
   PlanIr plan_;
   std::set<std::string> guids_;
-  std::vector<uint32_t> storey_of_;   // position in the plan, by instance
   std::vector<uint32_t> element_of_;  // by product
 };
 

@@ -1,9 +1,10 @@
 // The IFC frontend: a STEP file of IFC2X to IFC4X3 in, the plan as drawn out.
 //
 // What becomes what: every product with a body but spaces, openings and annotations is a PlanElement; walls and curtain walls made of parts
-// are one element with the whole's GlobalId; proxies that act as walls keep their kind but have an uncut body, as walls do; every IfcRelVoidsElement is a PlanOpening, and so is every door and window without one; panes
-// of glass are elements of their own. Bodies have their openings cut, `uncut` has not. Whatever cannot be read is a diagnostic with its
-// instance, never a crash, and the rest of the plan is still read.
+// are one element with the whole's GlobalId; proxies that act as walls keep their kind but have an uncut body, as walls do; every
+// IfcRelVoidsElement is a PlanOpening, and so is every door and window without one; panes of glass are elements of their own. Bodies have
+// their openings cut, `uncut` has not. Whatever cannot be read is a diagnostic with its instance, never a crash, and the rest of the plan
+// is still read.
 #pragma once
 
 #include <optional>

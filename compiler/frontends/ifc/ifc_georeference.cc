@@ -61,8 +61,8 @@ void CheckGeoreference(const IfcModel& model, const Eigen::Vector3d& plan_origin
       const Eigen::Vector2d offset_m = offset * scale;
       if (!((offset_m - origin_m).norm() < kNear * origin_m.norm())) continue;
       model.Emit(DiagnosticKind::kGeoreferencedTwice, instance,
-                 fmt::format("the placements put the plan around ({:.0f}, {:.0f}) m, and {} moves it by ({:.0f}, {:.0f}) m once more", origin_m.x(),
-                             origin_m.y(), model.Label(instance), offset_m.x(), offset_m.y()),
+                 fmt::format("the placements put the plan around ({:.0f}, {:.0f}) m, and {} moves it by ({:.0f}, {:.0f}) m once more",
+                             origin_m.x(), origin_m.y(), model.Label(instance), offset_m.x(), offset_m.y()),
                  "the plan frame is taken before the map conversion; export with one of the two");
       return;
     }

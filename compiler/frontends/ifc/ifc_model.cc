@@ -105,7 +105,8 @@ double IfcModel::Length(const IfcInstance& instance, size_t attribute_index, dou
   if (std::abs(length_m) <= kMaxCoordinate_m) return length_m;
   const DiagnosticKind kind = std::abs(length_m) < kNoCoordinate_m ? DiagnosticKind::kBadAttribute : DiagnosticKind::kNumberNotFinite;
   Emit(kind, instance.index,
-       fmt::format("attribute {} of {} is over {} m; it is taken as {} m", attribute_index + 1, Label(instance.index), kMaxCoordinate_m, fallback));
+       fmt::format("attribute {} of {} is over {} m; it is taken as {} m", attribute_index + 1, Label(instance.index), kMaxCoordinate_m,
+                   fallback));
   return fallback;
 }
 
@@ -137,8 +138,9 @@ bool IfcModel::Spend(size_t steps, uint32_t index) const {
   }
   steps_left_ = 0;
   if (!is_too_complex_) {
-    Emit(DiagnosticKind::kPlanTooComplex, index,
-         fmt::format("the shapes of the file unfold out of all proportion to its {} bytes, {} among them", file_.text_size(), Label(index)));
+    Emit(
+        DiagnosticKind::kPlanTooComplex, index,
+        fmt::format("the shapes of the file unfold out of all proportion to its {} bytes, {} among them", file_.text_size(), Label(index)));
   }
   return false;
 }

@@ -38,7 +38,9 @@ inline constexpr double kMaxCoordinate_m = 1e8;
 // Beyond this it is no mistake but no number either, as is NaN: a file with such numbers is refused.
 inline constexpr double kNoCoordinate_m = 1e15;
 [[nodiscard]] inline bool IsNumber(const Eigen::Vector3d& p_m) { return p_m.allFinite() && p_m.cwiseAbs().maxCoeff() < kNoCoordinate_m; }
-[[nodiscard]] inline bool IsCoordinate(const Eigen::Vector3d& p_m) { return p_m.allFinite() && p_m.cwiseAbs().maxCoeff() <= kMaxCoordinate_m; }
+[[nodiscard]] inline bool IsCoordinate(const Eigen::Vector3d& p_m) {
+  return p_m.allFinite() && p_m.cwiseAbs().maxCoeff() <= kMaxCoordinate_m;
+}
 
 class IfcModel {
  public:

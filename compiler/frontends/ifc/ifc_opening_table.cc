@@ -46,7 +46,7 @@ std::vector<Opening*> OpeningTable::Cutting(uint32_t product) {
   uint32_t at = relations_.WholeOf(products_[product].instance);
   for (int step = 0; step < kMaxSteps && at != StepFile::kNone; ++step, at = relations_.WholeOf(at)) {
     const uint32_t p = products_.Root(at);
-    if (p != kNoIndex && products_[p].parts.empty()) hosts.push_back(p);
+    if (p != kNoIndex && !products_[p].has_body) hosts.push_back(p);
   }
   std::vector<size_t> numbers;
   for (const uint32_t host : hosts) numbers.insert(numbers.end(), of_product_[host].begin(), of_product_[host].end());
@@ -80,7 +80,8 @@ void OpeningTable::Cut(uint32_t product, ShapeParts& parts) {
 bool OpeningTable::CutGroup(uint32_t product, std::span<const Tool> group, Solid& body) {
   const Eigen::AlignedBox3d box = Bounds(body);
   std::vector<Tool> tools;
-  std::copy_if(group.begin(), group.end(), std::back_inserter(tools), [&](const Tool& tool) { return box.intersects(Bounds(*tool.solid)); });
+  std::copy_if(group.begin(), group.end(), std::back_inserter(tools),
+               [&](const Tool& tool) { return box.intersects(Bounds(*tool.solid)); });
   if (tools.size() > 1) {
     if (!SpendCut(body, tools)) return false;
     std::vector<const Solid*> solids;
@@ -127,15 +128,15 @@ void OpeningTable::RestoreUncut(uint32_t product, Solid& uncut) {
 }
 
 void OpeningTable::AssignFillings() {
-  std::vector<uint32_t> filling_of(model_.size(), kNoIndex);  // product, by opening instance
+  InstanceMap filling_of;  // product, by opening
   std::vector<char> is_filling(products_.size(), 0);
   for (uint32_t p = 0; p < products_.size(); ++p) {
     const uint32_t opening = relations_.OpeningOf(products_[p].instance);
     if (opening == StepFile::kNone) continue;
     is_filling[p] = 1;
-    uint32_t& filling = filling_of[opening];
+    const uint32_t filling = filling_of[opening];
     // Of a door and a window in one opening the door counts: through it goes the way.
-    if (filling == kNoIndex || products_[filling].kind != ElementKind::kDoor) filling = p;
+    if (filling == kNoIndex || products_[filling].kind != ElementKind::kDoor) filling_of.Set(opening, p);
   }
   for (Opening& opening : openings_) opening.filling = filling_of[opening.instance];
   AssignByPlace(is_filling);

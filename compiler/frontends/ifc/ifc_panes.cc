@@ -47,7 +47,7 @@ void MarkPanes(const IfcOptions& options, ShapeParts& parts) {
   for (ShapePart& part : parts) {
     Solid panes, rest;
     WeldSolid(options.weld_tolerance_m, part.solid);
-    for (const Solid& piece : ConnectedPieces(part.solid)) AppendSolid(piece, IsPane(piece, options) ? panes : rest);
+    for (Solid& piece : ConnectedPieces(part.solid)) AppendSolid(std::move(piece), IsPane(piece, options) ? panes : rest);
     if (!panes.empty()) out.emplace_back(std::move(panes), Look::kGlass);
     if (!rest.empty()) out.emplace_back(std::move(rest), part.look);
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <optional>
 #include <vector>
 
 namespace plumb::compiler {
@@ -27,7 +28,6 @@ Eigen::Matrix3d Frame(const Vector3d& axis, const Vector3d& reference) {
   frame << x, z.cross(x), z;
   return frame;
 }
-
 
 }  // namespace
 
@@ -90,10 +90,19 @@ Isometry3d PlacementReader::AxisPlacement(StepValue reference) const {
   return T;
 }
 
+IfcInstance PlacementReader::ParentOf(const IfcInstance& placement) const {
+  if (placement.type == IfcType::kIfcGridPlacement) return grids_.ParentOf(placement);
+  const bool says_so = placement.type == IfcType::kIfcLocalPlacement || placement.type == IfcType::kIfcLinearPlacement;
+  return says_so ? model_.Follow(placement[attribute::kPlacementRelTo]) : IfcInstance();
+}
+
 Isometry3d PlacementReader::OwnPlacement(const IfcInstance& placement) const {
   if (placement.type == IfcType::kIfcLocalPlacement) return AxisPlacement(placement[attribute::kRelativePlacement]);
   if (placement.type == IfcType::kIfcLinearPlacement && !placement[attribute::kLinearCartesianPosition].is_null()) {
     return AxisPlacement(placement[attribute::kLinearCartesianPosition]);
+  }
+  if (placement.type == IfcType::kIfcGridPlacement) {
+    if (const std::optional<Isometry3d> T = grids_.Read(placement, *this)) return *T;
   }
   model_.Emit(DiagnosticKind::kUnsupportedPlacement, placement.index,
               fmt::format("{} is not read; what it places stands at the origin of what it is relative to", model_.Label(placement.index)));
@@ -114,9 +123,7 @@ Isometry3d PlacementReader::ObjectPlacement(StepValue reference) {
       break;
     }
     chain.push_back(at);
-    // Only a local placement says in its first attribute what it is relative to in every release.
-    at = at.type == IfcType::kIfcLocalPlacement || at.type == IfcType::kIfcLinearPlacement ? model_.Follow(at[attribute::kPlacementRelTo])
-                                                                                           : IfcInstance();
+    at = ParentOf(at);
   }
   for (auto it = chain.rbegin(); it != chain.rend(); ++it) {
     const Isometry3d T_next = T * OwnPlacement(*it);

@@ -5,6 +5,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "compiler/frontends/ifc/ifc_grid.h"
 #include "compiler/frontends/ifc/ifc_model.h"
 
 namespace plumb::compiler {
@@ -15,7 +16,7 @@ enum class TripleStatus { kGood, kBad, kNotFinite };
 
 class PlacementReader {
  public:
-  explicit PlacementReader(const IfcModel& model) : model_(model), known_points_(kKnownPoints) {}
+  explicit PlacementReader(const IfcModel& model) : model_(model), grids_(model), known_points_(kKnownPoints) {}
 
   // Zero for what is no point; a 2D point has z = 0.
   [[nodiscard]] Eigen::Vector3d Point(const IfcInstance& point) const;
@@ -32,6 +33,7 @@ class PlacementReader {
   [[nodiscard]] Eigen::Affine3d Operator(StepValue reference) const;
 
  private:
+  [[nodiscard]] IfcInstance ParentOf(const IfcInstance& placement) const;
   [[nodiscard]] Eigen::Isometry3d OwnPlacement(const IfcInstance& placement) const;
   [[nodiscard]] double Scale(const IfcInstance& op, size_t attribute_index, double fallback) const;
 
@@ -43,6 +45,7 @@ class PlacementReader {
   static constexpr uint32_t kKnownPoints = 2048;
 
   const IfcModel& model_;
+  GridReader grids_;
   mutable std::vector<KnownPoint> known_points_;
   std::unordered_map<uint32_t, Eigen::Isometry3d> T_plan_placement_;
 };

@@ -42,7 +42,8 @@ Solid Sphere(double radius_m, double chord_tolerance_m) {
 
 Solid ReadPrimitive(const IfcModel& model, const IfcInstance& item, double chord_tolerance_m) {
   if (item.type == IfcType::kIfcBlock || item.type == IfcType::kIfcRectangularPyramid) {
-    const Vector3d size(model.Length(item, attribute::kBlockX), model.Length(item, attribute::kBlockY), model.Length(item, attribute::kBlockZ));
+    const Vector3d size(model.Length(item, attribute::kBlockX), model.Length(item, attribute::kBlockY),
+                        model.Length(item, attribute::kBlockZ));
     if (!(size.minCoeff() > 0)) return {};
     return item.type == IfcType::kIfcBlock ? MakeBox(Vector3d::Zero(), size) : Pyramid(size.x(), size.y(), size.z());
   }

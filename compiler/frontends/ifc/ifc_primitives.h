@@ -6,8 +6,8 @@
 
 namespace plumb::compiler {
 
-// IfcBlock, IfcRectangularPyramid, IfcRightCircularCone, IfcRightCircularCylinder, IfcSphere: closed, normals outward; round ones with their
-// corners on the surface and chords within `chord_tolerance_m` of it. Empty if a measure is not positive.
+// IfcBlock, IfcRectangularPyramid, IfcRightCircularCone, IfcRightCircularCylinder, IfcSphere: closed, normals outward; round ones with
+// their corners on the surface and chords within `chord_tolerance_m` of it. Empty if a measure is not positive.
 [[nodiscard]] Solid ReadPrimitive(const IfcModel& model, const IfcInstance& item, double chord_tolerance_m);
 
 }  // namespace plumb::compiler

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -13,16 +14,25 @@ ProductTable::ProductTable(const IfcModel& model, PlacementReader& placements, c
                            const Relations& relations, const IfcOptions& options)
     : model_(model), placements_(placements), styles_(styles), shapes_(shapes), relations_(relations), options_(options) {
   const ProductKinds kinds(model);
-  product_of_.assign(model.size(), kNoIndex);
   const std::vector<uint32_t> instances = kinds.Products();
   products_.reserve(instances.size());
   for (const uint32_t instance : instances) {
     if (model.is_too_complex()) break;
-    product_of_[instance] = size();
     products_.push_back(Read(instance, *kinds.Of(instance)));
   }
   RelateParts();
   MergeParts();
+  for (Product& product : products_) product.has_body = !product.parts.empty();
+}
+
+size_t ProductTable::CountFillings() const {
+  return static_cast<size_t>(std::count_if(products_.begin(), products_.end(), [](const Product& p) { return FillsOpenings(p.kind); }));
+}
+
+uint32_t ProductTable::Find(uint32_t instance) const {
+  const auto at =
+      std::lower_bound(products_.begin(), products_.end(), instance, [](const Product& p, uint32_t i) { return p.instance < i; });
+  return at != products_.end() && at->instance == instance ? static_cast<uint32_t>(at - products_.begin()) : kNoIndex;
 }
 
 ShapeParts ProductTable::TakeParts(uint32_t product) {
@@ -31,9 +41,7 @@ ShapeParts ProductTable::TakeParts(uint32_t product) {
     for (const ShapePart& part : from.parts) from.box.extend(Bounds(part.solid));
   }
   if (from.frame != kNoIndex) return from.parts;
-  ShapeParts out = std::move(from.parts);
-  from.parts.resize(out.size());  // that it has some still counts
-  return out;
+  return std::move(from.parts);
 }
 
 ShapeParts ProductTable::PlacedBody(uint32_t instance) {
@@ -49,7 +57,8 @@ ShapeParts ProductTable::PlacedBody(uint32_t instance) {
   KeepInRange(model_, instance, parts);
   if (triangles_ > options_.max_triangles && !model_.is_too_complex()) {
     model_.Emit(DiagnosticKind::kPlanTooComplex, instance,
-                fmt::format("the bodies up to {} have over {} triangles; at most that many are read", model_.Label(instance), options_.max_triangles));
+                fmt::format("the bodies up to {} have over {} triangles; at most that many are read", model_.Label(instance),
+                            options_.max_triangles));
   }
   return parts;
 }
@@ -67,6 +76,7 @@ Product ProductTable::Read(uint32_t instance, ElementKind kind) {
     if (part.look == Look::kUnstated && !FillsOpenings(kind)) part.look = look;
   }
   if (kind == ElementKind::kWindow) MarkPanes(options_, product.parts);
+  for (ShapePart& part : product.parts) ShrinkSolid(part.solid);
   return product;
 }
 
@@ -75,7 +85,7 @@ ProductTable::Ancestry ProductTable::AncestryOf(const Product& product) const {
   Ancestry out;
   uint32_t at = relations_.WholeOf(product.instance);
   for (int step = 0; step < kMaxSteps && at != StepFile::kNone; ++step, at = relations_.WholeOf(at)) {
-    const uint32_t p = product_of_[at];
+    const uint32_t p = Find(at);
     if (p == kNoIndex || &products_[p] == &product) continue;
     const ElementKind kind = products_[p].kind;
     if (IsWallLike(kind)) out.wall = p;
@@ -117,7 +127,7 @@ void ProductTable::MergeParts() {
 }
 
 uint32_t ProductTable::Root(uint32_t instance) const {
-  const uint32_t p = instance == StepFile::kNone ? kNoIndex : product_of_[instance];
+  const uint32_t p = Find(instance);
   if (p == kNoIndex) return kNoIndex;
   return products_[p].whole == kNoIndex ? p : products_[p].whole;
 }

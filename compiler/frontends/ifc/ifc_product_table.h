@@ -20,6 +20,7 @@ struct Product {
   uint32_t frame = kNoIndex;       // for a door or window among the parts of a curtain wall or wall: that product
   std::vector<uint32_t> fillings;  // the products of which it is the frame
   bool has_parts = false;          // others were merged into it
+  bool has_body = false;           // it has parts, or had them until they were taken
 };
 
 [[nodiscard]] inline bool IsWallLike(ElementKind kind) { return kind == ElementKind::kWall || kind == ElementKind::kCurtainWall; }
@@ -39,6 +40,7 @@ class ProductTable {
   [[nodiscard]] const Product& operator[](uint32_t product) const { return products_[product]; }
   // The parts of a product, whose solids the table then no longer has unless another product frames it; its box stays.
   [[nodiscard]] ShapeParts TakeParts(uint32_t product);
+  [[nodiscard]] size_t CountFillings() const;  // doors and windows
   // The product that an instance became part of; kNoIndex if it is none.
   [[nodiscard]] uint32_t Root(uint32_t instance) const;
   // The body of any instance with placement and shape, in the plan frame. Beyond IfcOptions.max_triangles of all bodies together:
@@ -53,6 +55,7 @@ class ProductTable {
   };
   [[nodiscard]] Ancestry AncestryOf(const Product& product) const;
   [[nodiscard]] Product Read(uint32_t instance, ElementKind kind);
+  [[nodiscard]] uint32_t Find(uint32_t instance) const;  // kNoIndex: it is no product
   void RelateParts();
   void MergeParts();
 
@@ -62,9 +65,8 @@ class ProductTable {
   ShapeReader& shapes_;
   const Relations& relations_;
   const IfcOptions& options_;
-  size_t triangles_ = 0;              // of all bodies
-  std::vector<uint32_t> product_of_;  // by instance
-  std::vector<Product> products_;
+  size_t triangles_ = 0;           // of all bodies
+  std::vector<Product> products_;  // in the order of their instances
 };
 
 }  // namespace plumb::compiler

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "compiler/frontends/ifc/ifc_primitives.h"
+#include "compiler/frontends/ifc/ifc_representations.h"
 #include "compiler/geometry/sweep.h"
 
 namespace plumb::compiler {
@@ -36,22 +37,6 @@ ShapeParts OnePart(Solid solid) {
 
 bool IsBoolean(IfcType type) { return type == IfcType::kIfcBooleanResult || type == IfcType::kIfcBooleanClippingResult; }
 
-// How well a representation serves as the body: higher is better, 0 not at all.
-int BodyRank(const IfcInstance& representation) {
-  const std::string id = representation[attribute::kRepresentationIdentifier].Text();
-  const std::string type = representation[attribute::kRepresentationType].Text();
-  constexpr std::array<std::string_view, 9> kNoBody = {"Axis", "FootPrint", "Annotation", "Profile", "Clearance",
-                                                       "CoG",  "Lighting",  "Reference",  "Plan"};
-  if (std::find(kNoBody.begin(), kNoBody.end(), id) != kNoBody.end()) return 0;
-  if (type == "BoundingBox" || id == "Box") return 1;
-  if (id == "Body") return 5;
-  if (id == "Facetation" || id == "Body-Fallback" || id == "Body-FallBack" || id == "Tessellation") return 4;
-  constexpr std::array<std::string_view, 12> kSolid = {
-      "SweptSolid",   "AdvancedSweptSolid",   "Clipping",  "Brep",         "AdvancedBrep", "CSG", "SurfaceModel", "SolidModel",
-      "Tessellation", "MappedRepresentation", "Surface3D", "AttributeBody"};
-  return std::find(kSolid.begin(), kSolid.end(), type) != kSolid.end() ? 3 : 0;
-}
-
 }  // namespace
 
 void TransformPart(const Affine3d& T_out_part, ShapePart& part) {
@@ -60,7 +45,9 @@ void TransformPart(const Affine3d& T_out_part, ShapePart& part) {
 }
 
 void KeepInRange(const IfcModel& model, uint32_t instance, ShapeParts& parts) {
-  const auto is_out = [](const ShapePart& part) { return !std::all_of(part.solid.vertices.begin(), part.solid.vertices.end(), IsCoordinate); };
+  const auto is_out = [](const ShapePart& part) {
+    return !std::all_of(part.solid.vertices.begin(), part.solid.vertices.end(), IsCoordinate);
+  };
   if (std::erase_if(parts, is_out) == 0) return;
   model.Emit(DiagnosticKind::kBadAttribute, instance,
              fmt::format("parts of {} reach over {} m from the origin; they are left out", model.Label(instance), kMaxCoordinate_m));
@@ -82,19 +69,10 @@ ShapeReader::ShapeReader(const IfcModel& model, const PlacementReader& placement
 }
 
 ShapeParts ShapeReader::Body(const IfcInstance& definition_shape) {
-  if (!definition_shape || definition_shape.type != IfcType::kIfcProductDefinitionShape) return {};
-  std::vector<std::pair<int, IfcInstance>> ranked;
-  for (const StepValue item : definition_shape[attribute::kShapeRepresentations].Items()) {
-    const IfcInstance representation = model_.Follow(item);
-    if (!representation || representation.type != IfcType::kIfcShapeRepresentation) continue;
-    const int rank = BodyRank(representation);
-    if (rank > 0) ranked.emplace_back(rank, representation);
-  }
-  std::stable_sort(ranked.begin(), ranked.end(), [](const auto& a, const auto& b) { return a.first > b.first; });
-  for (const auto& [rank, representation] : ranked) {
-    ShapeParts parts = Representation(representation, 0);
+  for (const BodyRepresentation& body : BodyRepresentations(model_, definition_shape)) {
+    ShapeParts parts = Representation(body.representation, 0);
     if (parts.empty()) continue;
-    if (rank == 1) {
+    if (body.is_box) {
       model_.Emit(DiagnosticKind::kBoundingBoxInstead, definition_shape.index,
                   fmt::format("{} has no body that can be read; its bounding box stands for it", model_.Label(definition_shape.index)));
     }
@@ -104,16 +82,7 @@ ShapeParts ShapeReader::Body(const IfcInstance& definition_shape) {
 }
 
 std::optional<std::pair<Vector3d, Vector3d>> ShapeReader::Axis(const IfcInstance& definition_shape) const {
-  if (!definition_shape || definition_shape.type != IfcType::kIfcProductDefinitionShape) return std::nullopt;
-  for (const StepValue item : definition_shape[attribute::kShapeRepresentations].Items()) {
-    const IfcInstance representation = model_.Follow(item);
-    if (!representation || representation[attribute::kRepresentationIdentifier].Text() != "Axis") continue;
-    const StepItems items = representation[attribute::kRepresentationItems].Items();
-    if (items.empty()) continue;
-    const IfcInstance curve = model_.Follow(*items.begin());
-    if (!curve || curve.type == IfcType::kIfcMappedItem || curve.type == IfcType::kIfcGeometricSet ||
-        curve.type == IfcType::kIfcGeometricCurveSet)
-      continue;
+  for (const IfcInstance& curve : AxisCurves(model_, definition_shape)) {
     const CurvePoints points = curves_.Read(curve);
     if (points.points.size() >= 2) return std::make_pair(points.points.front(), points.points.back());
   }
@@ -320,7 +289,8 @@ Solid ShapeReader::BoundingBox(const IfcInstance& item) const {
 
 // Programs cut a wall by a chain of results, each the first operand of the next: as long as the wall has cuts, so it takes no stack.
 ShapeParts ShapeReader::Boolean(const IfcInstance& item, int depth) {
-  const size_t longest = model_.InstancesOf(IfcType::kIfcBooleanResult).size() + model_.InstancesOf(IfcType::kIfcBooleanClippingResult).size();
+  const size_t longest =
+      model_.InstancesOf(IfcType::kIfcBooleanResult).size() + model_.InstancesOf(IfcType::kIfcBooleanClippingResult).size();
   std::vector<IfcInstance> chain;
   IfcInstance at = item;
   for (; at && IsBoolean(at.type); at = model_.Follow(at[attribute::kFirstOperand])) {

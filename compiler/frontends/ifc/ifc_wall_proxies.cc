@@ -35,8 +35,9 @@ Vector2d MainNormal(const ShapeParts& parts) {
 }  // namespace
 
 bool IsWallName(std::string_view name) {
-  constexpr std::array<std::string_view, 22> kWords = {"wall", "walls",  "wand",   "mauer",  "mur",     "murs",   "muro", "muros", "muri", "pared",  "paredes",
-                                                       "parete", "pareti", "parede", "vegg",   "v\xc3\xa6g", "v\xc3\xa4gg", "sein\xc3\xa4", "\xc5\x9b" "ciana", "fal",  "zid", "stena"};
+  constexpr std::array<std::string_view, 22> kWords = {
+      "wall",   "walls",  "wand",   "mauer", "mur", "murs",        "muro",         "muros",         "muri",             "pared", "paredes",
+      "parete", "pareti", "parede", "vegg", "fal", "v\xc3\xa6g", "v\xc3\xa4gg", "sein\xc3\xa4", "\xc5\x9b" "ciana", "zid",   "stena"};
   std::string word;
   const auto is_wall = [&] { return std::find(kWords.begin(), kWords.end(), word) != kWords.end(); };
   for (const char c : name) {
@@ -56,7 +57,8 @@ bool IsWallShaped(const ShapeParts& parts) {
   if (across.isZero()) return false;
   Eigen::AlignedBox3d box;
   for (const ShapePart& part : parts) {
-    for (const Vector3d& v : part.solid.vertices) box.extend(Vector3d(across.dot(v.head<2>()), across.x() * v.y() - across.y() * v.x(), v.z()));
+    for (const Vector3d& v : part.solid.vertices)
+      box.extend(Vector3d(across.dot(v.head<2>()), across.x() * v.y() - across.y() * v.x(), v.z()));
   }
   const Vector3d size = box.sizes();
   return size.z() >= kMinHeight_m && size.x() <= kMaxThickness_m && size.y() >= kMinLengthRatio * size.x();

@@ -13,6 +13,7 @@ namespace {
 constexpr size_t kLineBlockBytes = size_t{1} << 11;
 constexpr size_t kMaxSyntaxDiagnostics = 50;
 constexpr size_t kMaxTypes = 0xfffe;
+constexpr uint32_t kIdsInBucket = 2;  // on average at least
 
 bool IsDigit(char c) { return c >= '0' && c <= '9'; }
 bool IsNameChar(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || IsDigit(c) || c == '_'; }
@@ -85,7 +86,8 @@ class StepIndexer {
       Complain(end_, "the file ends before `END-ISO-10303-21;`", kind);
     }
     file_.is_whole_ = !truncated_;
-    file_.BuildLookup(diagnostics_);
+    file_.BuildLookup();
+    file_.ReportDuplicates(diagnostics_);
     file_.BuildTypeLists();
     return std::move(file_);
   }
@@ -261,31 +263,31 @@ class StepIndexer {
 
 std::optional<StepFile> StepFile::Index(std::string_view text, DiagnosticSink& diagnostics) { return StepIndexer(text, diagnostics).Run(); }
 
-void StepFile::BuildLookup(DiagnosticSink& diagnostics) {
-  const uint64_t max_id = ids_.empty() ? 0 : *std::max_element(ids_.begin(), ids_.end());
-  size_t duplicates = 0;
-  const auto duplicate = [&](uint32_t instance) {
-    if (++duplicates > kMaxSyntaxDiagnostics) return;
+void StepFile::BuildLookup() {
+  if (!std::is_sorted(ids_.begin(), ids_.end())) {
+    by_id_.resize(size());
+    std::iota(by_id_.begin(), by_id_.end(), 0u);
+    std::stable_sort(by_id_.begin(), by_id_.end(), [this](uint32_t a, uint32_t b) { return ids_[a] < ids_[b]; });
+  }
+  const uint64_t max_id = ids_.empty() ? 0 : ids_[ById(size() - 1)];
+  while (bucket_bits_ < 63 && max_id >> bucket_bits_ > size() / kIdsInBucket) ++bucket_bits_;
+  bucket_starts_.reserve((max_id >> bucket_bits_) + 2);
+  for (uint32_t rank = 0; rank < size(); ++rank) {
+    while (bucket_starts_.size() <= ids_[ById(rank)] >> bucket_bits_) bucket_starts_.push_back(rank);
+  }
+  bucket_starts_.push_back(size());
+}
+
+void StepFile::ReportDuplicates(DiagnosticSink& diagnostics) const {
+  std::vector<uint32_t> duplicates;
+  for (size_t rank = 1; rank < size(); ++rank) {
+    if (ids_[ById(rank - 1)] == ids_[ById(rank)]) duplicates.push_back(ById(rank));
+  }
+  std::sort(duplicates.begin(), duplicates.end());
+  if (duplicates.size() > kMaxSyntaxDiagnostics) duplicates.resize(kMaxSyntaxDiagnostics);
+  for (const uint32_t instance : duplicates) {
     const SourceLocation location{Line(instance), ids_[instance], {}, type_names_[types_[instance]], Column(instance)};
     diagnostics.Emit(DiagnosticKind::kDuplicateInstance, location, fmt::format("`#{}` is used again; the first one holds", ids_[instance]));
-  };
-  if (max_id < 16 * uint64_t{ids_.size()} + 1024) {
-    dense_.assign(max_id + 1, kNone);
-    for (uint32_t i = 0; i < size(); ++i) {
-      uint32_t& slot = dense_[ids_[i]];
-      if (slot == kNone) {
-        slot = i;
-      } else {
-        duplicate(i);
-      }
-    }
-    return;
-  }
-  sorted_.resize(size());
-  std::iota(sorted_.begin(), sorted_.end(), 0u);
-  std::stable_sort(sorted_.begin(), sorted_.end(), [this](uint32_t a, uint32_t b) { return ids_[a] < ids_[b]; });
-  for (size_t i = 1; i < sorted_.size(); ++i) {
-    if (ids_[sorted_[i - 1]] == ids_[sorted_[i]]) duplicate(sorted_[i]);
   }
 }
 
@@ -299,9 +301,15 @@ void StepFile::BuildTypeLists() {
 }
 
 uint32_t StepFile::Find(uint64_t id) const {
-  if (!dense_.empty()) return id < dense_.size() ? dense_[id] : kNone;
-  const auto it = std::lower_bound(sorted_.begin(), sorted_.end(), id, [this](uint32_t a, uint64_t value) { return ids_[a] < value; });
-  return it != sorted_.end() && ids_[*it] == id ? *it : kNone;
+  const uint64_t bucket = id >> bucket_bits_;
+  if (bucket + 1 >= bucket_starts_.size()) return kNone;
+  uint32_t rank = bucket_starts_[bucket], end = bucket_starts_[bucket + 1];
+  while (end - rank > kIdsInBucket) {  // ids that crowd
+    const uint32_t middle = rank + (end - rank) / 2;
+    (ids_[ById(middle - 1)] < id ? rank : end) = middle;
+  }
+  while (rank < end && ids_[ById(rank)] < id) ++rank;
+  return rank < end && ids_[ById(rank)] == id ? ById(rank) : kNone;
 }
 
 std::span<const uint32_t> StepFile::InstancesOf(uint16_t type) const {

@@ -1,6 +1,7 @@
 #include "compiler/passes/alias_forecast.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -8,6 +9,7 @@
 #include <numbers>
 
 #include "compiler/passes/alias_text.h"
+#include "schema/agraph_writer.h"
 #include "tests/support/house.h"
 #include "tests/support/plans.h"
 
@@ -108,6 +110,23 @@ TEST(AliasForecast, FindsTheHalfTurnOfTwoFlats) {
   EXPECT_NEAR(a.section_length_m, 2 * (17.2 + 14.2 - 1.8), 1.0);
   EXPECT_TRUE(a.differences.empty());
   EXPECT_EQ(g.look_alikes.size(), 2u);
+}
+
+TEST(AliasForecast, IsTheSameOnAnyNumberOfThreads) {
+  std::vector<double> xs = {0};
+  std::vector<test::GridDoor> doors;
+  for (size_t i = 0; i < 120; ++i) {
+    xs.push_back(xs.back() + (i % 3 == 0 ? 4 : 2.5));
+    if (i % 3 == 1) doors.push_back({true, i, 0, 0.3});
+  }
+  const AGraph plan = test::MakeGridPlan(xs, {0, 5, 9, 13, 17}, doors);
+  ASSERT_GT(plan.mesh.triangles.size(), 4u * 512u) << "all of them are cut in one go";
+  const auto forecast = [&plan](size_t threads) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    return WriteAGraph(Forecasted(plan));
+  };
+  const auto alone = forecast(1);
+  for (const size_t threads : {2, 3, 8}) EXPECT_EQ(forecast(threads), alone) << threads;
 }
 
 TEST(AliasForecast, AMirrorImageIsNoAlias) {

@@ -37,6 +37,37 @@ TEST(Snap, CrossingOutlinesMeetInVertices) {
   ExpectClosed(snapped, 2);
 }
 
+TEST(Snap, SaysThatSegmentsMeetInVerticesOnly) {
+  SnapGraph graph;
+  Append({0, 1}, {3, 2}, 0, false, graph);
+  Append({1, 0}, {2, 3}, 1, true, graph);
+  Append({3, 1}, {5, 2}, 2, false, graph);  // beside the first: along one of its sides
+  EXPECT_TRUE(Snap(graph, 0.002).is_planar);
+}
+
+TEST(Snap, SaysWhatItLeavesToExactArithmetic) {
+  // A fan of lines through one place, each round closer to each other than the radius allows, but not closer than vertices.
+  SnapGraph graph;
+  for (uint32_t i = 0; i < 40; ++i) {
+    const double y = 0.003 * i;
+    const auto first = static_cast<uint32_t>(graph.vertices.size());
+    graph.vertices.insert(graph.vertices.end(), {{-5, y}, {5, 0.117 - y}});
+    graph.segments.push_back({first, first + 1, i});
+  }
+  const SnapGraph snapped = Snap(graph, 0.002);
+  for (size_t i = 0; snapped.is_planar && i < snapped.segments.size(); ++i) {
+    for (size_t k = 0; k < i; ++k) {
+      const SnapSegment &s = snapped.segments[i], &r = snapped.segments[k];
+      if (s.from == r.from || s.from == r.to || s.to == r.from || s.to == r.to) continue;
+      const auto side = [&](uint32_t p, const SnapSegment& of) {
+        const Eigen::Vector2d d = snapped.vertices[of.to] - snapped.vertices[of.from], w = snapped.vertices[p] - snapped.vertices[of.from];
+        return d.x() * w.y() - d.y() * w.x() > 0;
+      };
+      EXPECT_FALSE(side(s.from, r) != side(s.to, r) && side(r.from, s) != side(r.to, s)) << i << " crosses " << k;
+    }
+  }
+}
+
 TEST(Snap, SegmentsOverEachOtherAreSplitAlikeWhicheverWayTheyRun) {
   SnapGraph graph;
   Append({0, 0}, {10, 1}, 0, false, graph);

@@ -9,6 +9,7 @@
 
 #include "compiler/frontends/drawing/arc_fit.h"
 #include "compiler/frontends/drawing/plan_from_drawing.h"
+#include "compiler/frontends/drawing/strokes.h"
 #include "compiler/passes/build_agraph.h"
 
 namespace plumb::compiler {
@@ -202,6 +203,64 @@ TEST(CurvedWalls, APartitionThatMeetsARoundWallLeavesItAnArc) {
     EXPECT_TRUE(s.arc.has_value());
   }
   EXPECT_GT(outside, 0u);
+}
+
+// The surfaces of the room are one arc of this radius each, but for `straight_m` of them.
+void ExpectArcsOf(double radius_m, double straight_m, const AGraph& graph) {
+  ASSERT_EQ(graph.rooms.size(), 1u);
+  double flat_m = 0, curved_m = 0;
+  for (const Surface& s : graph.surfaces) {
+    if (!s.room.valid()) continue;
+    if (!s.arc) {
+      flat_m += (s.end - s.start).norm();
+      continue;
+    }
+    EXPECT_NEAR(s.arc->radius_m, radius_m, 0.003);
+    curved_m += std::abs(s.arc->sweep_rad) * s.arc->radius_m;
+  }
+  EXPECT_NEAR(flat_m, straight_m, 0.1);
+  EXPECT_GT(curved_m, 0.9 * kPi * radius_m);
+}
+
+// Half a circle on the middle of the wall, and its chord.
+Drawing Apse(double radius_m) {
+  Drawing out;
+  DrawnPath curve, chord;
+  curve.role = chord.role = LineRole::kWall;
+  AppendArc(radius_m, 0, kPi, curve.points);
+  chord.points = {{-radius_m, 0}, {radius_m, 0}};
+  out.paths = {curve, chord};
+  return out;
+}
+
+TEST(CurvedWalls, ASingleLineAlongAnArcIsACurvedWall) {
+  const double half_m = 0.5 * MassOptions().single_line_thickness_m;
+  const AGraph graph = GraphOf(Apse(4));
+  ExpectArcsOf(4 - half_m, 2 * (4 - half_m), graph);
+  EXPECT_NEAR(graph.rooms[0].area_m2, 0.5 * kPi * 16 - half_m * (8 + 4 * kPi), 0.1);
+}
+
+TEST(CurvedWalls, ASingleLineAroundACircleIsARoundRoom) {
+  Drawing drawing;
+  drawing.paths = {Circle(4)};
+  ExpectArcsOf(4 - 0.5 * MassOptions().single_line_thickness_m, 0, GraphOf(drawing));
+}
+
+TEST(CurvedWalls, AThickStrokeAlongAnArcIsACurvedWall) {
+  Drawing drawing = Apse(4);
+  for (DrawnPath& path : drawing.paths) path.stroke_m = 0.3;
+  WidenStrokes(drawing);
+  const AGraph graph = GraphOf(drawing);
+  ExpectArcsOf(3.85, 2 * 3.85, graph);
+  EXPECT_NEAR(graph.rooms[0].area_m2, 0.5 * kPi * 16 - 0.15 * (8 + 4 * kPi), 0.15);
+}
+
+TEST(CurvedWalls, AThickStrokeAroundACircleIsARoundRoom) {
+  Drawing drawing;
+  drawing.paths = {Circle(4)};
+  drawing.paths[0].stroke_m = 0.3;
+  WidenStrokes(drawing);
+  ExpectArcsOf(3.85, 0, GraphOf(drawing));
 }
 
 }  // namespace

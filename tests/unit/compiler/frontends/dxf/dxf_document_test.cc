@@ -34,6 +34,33 @@ TEST(DxfDocument, EntitiesHaveHandleLayerAndLine) {
   EXPECT_EQ(d.entities[1].paths[0].points.size(), 4u);
 }
 
+TEST(DxfDocument, LinesStandBetweenOtherEntitiesAsInTheFile) {
+  const DxfDocument d = Read(DxfText().Box("A", 0, 0, 1, 1).Line("B", 1, 2, 3, 4).Line("C", 5, 6, 7, 8).Box("D", 0, 0, 1, 1).Line("E", 9, 9, 8, 8).Str());
+  std::string layers;
+  for (const DxfEntity& e : d.entities) layers += d.layers[e.layer].name;
+  EXPECT_EQ(layers, "ABCDE");
+  ASSERT_EQ(d.entities[1].paths.size(), 1u);
+  EXPECT_EQ(d.entities[1].paths[0].points, (std::vector<Eigen::Vector2d>{{1, 2}, {3, 4}}));
+  EXPECT_EQ(d.entities[4].paths[0].points, (std::vector<Eigen::Vector2d>{{9, 9}, {8, 8}}));
+}
+
+TEST(DxfDocument, NumbersOfLinesMayBeWrittenInAnyWay) {
+  const auto line = [](const std::string& x0) {
+    return "0\nSECTION\n2\nENTITIES\n0\nLINE\n8\nW\n10\n" + x0 + "\n20\n2\n11\n3\n21\n4\n0\nLINE\n8\nW\n10\n5\n20\n6\n11\n7\n21\n8\n0\nENDSEC\n0\nEOF\n";
+  };
+  for (const char* x0 : {"1.5", " 1.50000 ", "15e-1", "+1.5", "1,5"}) {
+    const DxfDocument d = Read(line(x0));
+    ASSERT_EQ(d.entities.size(), 2u) << x0;
+    EXPECT_EQ(d.entities[0].paths[0].points[0], Eigen::Vector2d(1.5, 2)) << x0;
+    EXPECT_EQ(d.entities[1].paths[0].points[1], Eigen::Vector2d(7, 8)) << x0;
+  }
+  DiagnosticSink sink;
+  const auto too_large = Read(line("1e300"), sink);
+  ASSERT_TRUE(too_large);
+  EXPECT_EQ(too_large->entities.size(), 1u);
+  EXPECT_EQ(sink.all().size(), 1u);
+}
+
 // The same groups with binary values.
 std::string Binary(const std::string& text) {
   std::string out("AutoCAD Binary DXF\r\n\x1a\0", 22);

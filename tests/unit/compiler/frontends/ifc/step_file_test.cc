@@ -77,6 +77,23 @@ TEST_F(StepFileTest, SparseAndHugeIdsAreFound) {
   EXPECT_EQ(file.Find(900001), StepFile::kNone);
 }
 
+TEST_F(StepFileTest, CrowdedAndDisorderedIdsAreFound) {
+  std::string data;
+  for (int i = 299; i >= 0; --i) data += "#" + std::to_string(1000000 + 3 * i) + "=IFCWALL('" + std::to_string(i) + "');\n";
+  data += "#12=IFCWALL('low');\n#18446744073709551615=IFCWALL('high');\n#1000300=IFCWALL('again');";
+  const StepFile& file = Index(test::IfcText(data));
+  for (int i = 0; i < 300; ++i) {
+    const uint64_t id = 1000000 + 3 * static_cast<uint64_t>(i);
+    ASSERT_NE(file.Find(id), StepFile::kNone) << id;
+    EXPECT_EQ(file.Arguments(file.Find(id))[0].Text(), std::to_string(i));
+    EXPECT_EQ(file.Find(id + 1), StepFile::kNone);
+  }
+  EXPECT_EQ(file.Arguments(file.Find(12))[0].Text(), "low");
+  EXPECT_EQ(file.Arguments(file.Find(18446744073709551615u))[0].Text(), "high");
+  EXPECT_EQ(file.Find(11), StepFile::kNone);
+  EXPECT_EQ(Kinds(), std::vector{DiagnosticKind::kDuplicateInstance});
+}
+
 TEST_F(StepFileTest, NotAStepFileIsAnError) {
   EXPECT_FALSE(StepFile::Index("solid cube", diagnostics_));
   EXPECT_EQ(Kinds(), std::vector{DiagnosticKind::kStepSyntax});

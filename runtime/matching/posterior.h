@@ -42,7 +42,7 @@ struct WrongPlans {
 // Whether the rays alone tell the place (see MatcherOptions) of a map, by a planar laser or another. `sorted` must not be empty.
 [[nodiscard]] bool RaysVouch(const std::vector<Candidate>& sorted, double mirrored, bool planar, const MatcherOptions& options);
 
-// Whether the walls tell the building's size to within accept_scale_error.
+// Whether the walls tell the building's size to within accept_scale_error, and that it is the plan's.
 [[nodiscard]] bool WallsTellScale(const WallFit& fit, const MatcherOptions& options);
 
 // Why this pose alone, rivals aside, is not yet trusted; empty if it is. `scaled`: see WrongPlans.

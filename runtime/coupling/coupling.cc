@@ -9,8 +9,8 @@
 #include <set>
 #include <utility>
 
+#include "runtime/coupling/face_candidates.h"
 #include "runtime/coupling/level_matching.h"
-#include "runtime/coupling/mixture.h"
 #include "runtime/coupling/sight_lines.h"
 #include "runtime/coupling/wall_frame.h"
 #include "runtime/coupling/wall_openings.h"
@@ -20,21 +20,12 @@
 namespace plumb::runtime {
 namespace {
 
-constexpr double kMapSigma_m = 0.03;       // of a map surface before joint estimation
-constexpr double kMinOverlap_m = 0.2;
 constexpr double kMinSizeShare = 0.5;      // a line behind another is the wall if it has this share of the front's area, ...
 constexpr double kHigher_m = 0.10;         // ... or is seen this much higher up
 constexpr double kFrontPenalty_nats = 8;   // for taking a surface with a wall visible behind it for the wall
-constexpr double kMaxOpenRatio = 0.5;      // of a patch's cells: with more of them in openings it is leaves, panes and frames
-constexpr double kRecess_m = 0.02;         // leaves, panes and frames lie at least this far behind the wall's face
-constexpr double kOffPlan_m = 0.06;        // a wall further off its plan must stop the lines of sight, ...
-constexpr double kOffPlan_rad = 0.087;
-constexpr double kMinExplained = 0.4;      // ... and is what most of the patch is of: what goes far beyond a wall is another
 constexpr double kInOpeningRatio = 0.6;    // of an observation's extent either way: it is of what fills the opening
 constexpr double kHalfExtentSigmas = 1.7;  // half the extent of evenly spread points
 constexpr double kMaxThicker_m = 0.10;     // no wall is built thicker than planned by more: one of its faces is the front of furniture
-constexpr double kMinExplainedHeight = 0.25;
-constexpr double kLeastExplained = 0.01;
 constexpr double kSameNormal_cos = 0.999, kMinShared_m2 = 0.5, kMaxFlush_m = 0.2, kMinSharedRatio = 0.5;  // of walls that one patch runs along
 constexpr double kSameDirection_rad = 0.052, kDirectionSigmas = 2;  // patches of one line are parallel to this
 constexpr double kStepPerMetre = 0.01;     // lines are compared at a distance: allow for their direction errors
@@ -76,55 +67,6 @@ double Seen_m(const ViewExtent& view, const Surface& surface) {
   return std::min(surface.length_m(), view.middle.x() + view.reach.x()) - std::max(0.0, view.middle.x() - view.reach.x());
 }
 
-struct Candidate {
-  SurfaceId surface;
-  int side = 0;  // 2 * wall id + (1 if it faces along the wall's reference normal): patches of one side lie on one line
-  double offset_m = 0, yaw_rad = 0, cost_nats = 0;
-};
-
-// Is what the patch is of the face for the most part, and no skirting or ledge on it?
-bool IsMostOf(const Surface& surface, const Patch& patch, double explained) {
-  const double height_m = std::min(patch.z_max, surface.z_max_m) - std::max(patch.z_min, surface.z_min_m);
-  return explained >= kMinExplained && height_m >= kMinExplainedHeight * (patch.z_max - patch.z_min);
-}
-
-std::optional<Candidate> Compare(const Patch& patch, SurfaceId id, const Surface& surface, const WallFrame& frame, const WallDeviation& known,
-                                 const std::vector<WallOpening>& openings, const SightLines& sight, double max_offset_m, const CouplingOptions& options) {
-  const Eigen::Vector3d& n = surface.normal;
-  const double yaw = std::atan2(n.x() * patch.normal.y() - n.y() * patch.normal.x(), n.head<2>().dot(patch.normal.head<2>()));
-  if (std::abs(yaw - known.yaw_rad) > options.max_yaw_rad) return std::nullopt;
-  if (OverlapRatio(patch.z_min, patch.z_max, surface.z_min_m, surface.z_max_m) < options.min_height_overlap_ratio) return std::nullopt;
-
-  const Eigen::Vector2d along = (surface.end - surface.start).normalized();
-  const double a0 = along.dot(patch.start - surface.start), a1 = along.dot(patch.end - surface.start);
-  const double from = std::max(0.0, std::min(a0, a1)), to = std::min(surface.length_m(), std::max(a0, a1));
-  if (to - from < kMinOverlap_m || OverlapRatio(std::min(a0, a1), std::max(a0, a1), 0, surface.length_m()) < options.min_overlap_ratio) {
-    return std::nullopt;
-  }
-  const double middle = 0.5 * (from + to);
-  const Eigen::Vector2d on_patch = patch.start + (middle - a0) / (a1 - a0) * (patch.end - patch.start);
-  const Eigen::Vector2d on_plan = surface.start + middle * along;
-
-  Candidate c;
-  c.surface = id;
-  c.side = static_cast<int>(2 * surface.wall.value) + (frame.normal.dot(n) > 0 ? 1 : 0);
-  c.offset_m = n.head<2>().dot(on_patch - on_plan);
-  c.yaw_rad = yaw;
-  const Eigen::Vector2d arm = on_plan - frame.pivot.head<2>();
-  const double expected = known.offset_m * frame.normal.dot(n) + known.yaw_rad * n.head<2>().dot(Eigen::Vector2d(-arm.y(), arm.x()));
-  const Eigen::Vector2d residual(c.offset_m - expected, yaw - known.yaw_rad);
-  if (std::abs(residual.x()) > max_offset_m) return std::nullopt;
-  if (OpenRatio(patch, openings, along, std::min(c.offset_m, residual.x()) < -kRecess_m) > kMaxOpenRatio) return std::nullopt;
-  const double explained = ExplainedRatio(patch, surface);
-  const bool off_plan = std::abs(c.offset_m) > kOffPlan_m;
-  if ((off_plan || std::abs(yaw) > kOffPlan_rad) && !IsMostOf(surface, patch, explained)) return std::nullopt;
-  if (off_plan && IsSeenThrough(patch, surface, openings, sight)) return std::nullopt;
-  const double yaw_sigma = kMapSigma_m / std::max(patch.length(), 0.3);
-  const Eigen::Matrix2d covariance = Eigen::Vector2d(kMapSigma_m * kMapSigma_m, yaw_sigma * yaw_sigma).asDiagonal();
-  c.cost_nats = AssessMixture(residual, covariance, options).cost_nats - std::log(std::max(explained, kLeastExplained));
-  return c;
-}
-
 // Collinear patches on one side of one wall.
 struct Line {
   std::vector<size_t> patches;  // the first is the largest and gives the line
@@ -147,17 +89,17 @@ double Step(const Patch& a, const Patch& b, double max_step_m) {
 
 class Assignment {
  public:
-  Assignment(const std::vector<Patch>& patches, std::vector<std::vector<Candidate>> candidates, const CouplingOptions& options)
+  Assignment(const std::vector<Patch>& patches, std::vector<std::vector<FaceCandidate>> candidates, const CouplingOptions& options)
       : patches_(patches), candidates_(std::move(candidates)), options_(options) {
     for (auto& list : candidates_) {
-      std::erase_if(list, [&](const Candidate& c) { return c.cost_nats > options_.unmatched_cost_nats; });
-      std::stable_sort(list.begin(), list.end(), [](const Candidate& a, const Candidate& b) { return a.cost_nats < b.cost_nats; });
+      std::erase_if(list, [&](const FaceCandidate& c) { return c.cost_nats > options_.unmatched_cost_nats; });
+      std::stable_sort(list.begin(), list.end(), [](const FaceCandidate& a, const FaceCandidate& b) { return a.cost_nats < b.cost_nats; });
     }
   }
 
   // Each patch takes its cheapest candidate; sides whose patches do not line up keep one line and the others move on. Every turn removes
   // at least one candidate, so it ends.
-  const std::vector<std::vector<Candidate>>& Solve() {
+  const std::vector<std::vector<FaceCandidate>>& Solve() {
     while (ResolveOneSide()) {
     }
     return candidates_;
@@ -185,7 +127,7 @@ class Assignment {
   }
 
   void DropSide(size_t patch, int side) {
-    std::erase_if(candidates_[patch], [&](const Candidate& c) { return c.side == side; });
+    std::erase_if(candidates_[patch], [&](const FaceCandidate& c) { return c.side == side; });
   }
 
   std::vector<Line> Lines(std::vector<size_t> members) const {
@@ -209,7 +151,7 @@ class Assignment {
     double sum = 0;
     for (size_t i : line.patches) {
       const auto& list = candidates_[i];
-      const auto other = std::find_if(list.begin(), list.end(), [&](const Candidate& c) { return c.side != side; });
+      const auto other = std::find_if(list.begin(), list.end(), [&](const FaceCandidate& c) { return c.side != side; });
       sum += !elsewhere ? list.front().cost_nats : other == list.end() ? options_.unmatched_cost_nats : other->cost_nats;
     }
     return sum / static_cast<double>(line.patches.size());
@@ -244,13 +186,13 @@ class Assignment {
   }
 
   const std::vector<Patch>& patches_;
-  std::vector<std::vector<Candidate>> candidates_;
+  std::vector<std::vector<FaceCandidate>> candidates_;
   const CouplingOptions& options_;
 };
 
 // Drops what stands before a wall whose other face was seen as well, where the two together would make the wall far too thick. A planar laser
 // sees of a cupboard no more and no less than of a wall; a lidar with many rings sees over it, and lines decide.
-void DropFurnitureFronts(const std::vector<Patch>& patches, std::vector<std::vector<Candidate>>& assigned) {
+void DropFurnitureFronts(const std::vector<Patch>& patches, std::vector<std::vector<FaceCandidate>>& assigned) {
   std::map<int, std::pair<double, double>> sides;  // sum of offset * area, area
   for (size_t i = 0; i < patches.size(); ++i) {
     if (assigned[i].empty()) continue;
@@ -270,24 +212,15 @@ void DropFurnitureFronts(const std::vector<Patch>& patches, std::vector<std::vec
 }
 
 // Per patch its candidates, the chosen one first.
-std::vector<std::vector<Candidate>> Assigned(const AGraph& plan, const std::vector<WallFrame>& frames, const std::vector<Patch>& patches,
-                                             const std::vector<std::vector<WallOpening>>& openings, const SightLines& sight,
+std::vector<std::vector<FaceCandidate>> Assigned(const std::vector<PlannedFace>& faces, const std::vector<Patch>& patches, const SightLines& sight,
                                              const std::vector<WallDeviation>& known, double max_offset_m, const CouplingOptions& options) {
-  std::vector<std::vector<Candidate>> candidates(patches.size());
-  for (size_t i = 0; i < patches.size(); ++i) {
-    for (size_t j = 0; j < plan.surfaces.size(); ++j) {
-      const Surface& surface = plan.surfaces[j];
-      if (!surface.wall.valid() || !IsFace(frames[surface.wall.index()], surface)) continue;
-      const size_t wall = surface.wall.index();
-      const WallDeviation deviation = wall < known.size() ? known[wall] : WallDeviation{};
-      if (auto c = Compare(patches[i], SurfaceId(j), surface, frames[wall], deviation, openings[wall], sight, max_offset_m, options)) candidates[i].push_back(*c);
-    }
-  }
+  std::vector<std::vector<FaceCandidate>> candidates;
+  for (const Patch& patch : patches) candidates.push_back(CandidatesOf(patch, faces, sight, known, max_offset_m, options));
   return Assignment(patches, std::move(candidates), options).Solve();
 }
 
 std::vector<FarWall> FarWalls(const AGraph& plan, const std::vector<WallFrame>& frames, const std::vector<Patch>& patches,
-                              const std::vector<std::vector<Candidate>>& assigned, const std::vector<std::vector<WallOpening>>& openings,
+                              const std::vector<std::vector<FaceCandidate>>& assigned, const std::vector<std::vector<WallOpening>>& openings,
                               const SightLines& sight, const CouplingOptions& options) {
   std::vector<Patch> unmatched;
   std::vector<bool> matched(plan.walls.size(), false);
@@ -302,21 +235,21 @@ std::vector<FarWall> FarWalls(const AGraph& plan, const std::vector<WallFrame>& 
 }
 
 // The chosen face, and those of other walls that the patch goes on along and that nothing else was matched to. `sides` gets theirs.
-std::vector<Candidate> FacesAlong(const AGraph& plan, const Patch& patch, const std::vector<Candidate>& candidates, std::set<int>& sides) {
-  std::vector<Candidate> faces{candidates.front()};
+std::vector<FaceCandidate> FacesAlong(const AGraph& plan, const Patch& patch, const std::vector<FaceCandidate>& candidates, std::set<int>& sides) {
+  std::vector<FaceCandidate> faces{candidates.front()};
   const auto beside = [&](const Surface& a, const Surface& b) {
     const Eigen::Vector2d along = (a.end - a.start).normalized();
     const double from = along.dot(b.start - a.start), to = along.dot(b.end - a.start);
     return a.normal.dot(b.normal) > kSameNormal_cos && std::min(a.length_m(), std::max(from, to)) - std::max(0.0, std::min(from, to)) < kMinOverlap_m;
   };
-  for (const Candidate& c : candidates) {
+  for (const FaceCandidate& c : candidates) {
     const Surface& surface = plan.surfaces[c.surface.index()];
     // What stands further in front of a wall, flush with the next, is as likely to be furniture in a recess.
     if (sides.contains(c.side) || c.offset_m > kMaxFlush_m || ExplainedRatio(patch, surface) * patch.area < kMinShared_m2) continue;
     const double a = (surface.end - surface.start).dot(patch.start - surface.start) / surface.length_m();
     const double b = (surface.end - surface.start).dot(patch.end - surface.start) / surface.length_m();
     if (std::min(surface.length_m(), std::max(a, b)) - std::max(0.0, std::min(a, b)) < kMinSharedRatio * surface.length_m()) continue;
-    if (!std::all_of(faces.begin(), faces.end(), [&](const Candidate& f) { return beside(plan.surfaces[f.surface.index()], surface); })) continue;
+    if (!std::all_of(faces.begin(), faces.end(), [&](const FaceCandidate& f) { return beside(plan.surfaces[f.surface.index()], surface); })) continue;
     faces.push_back(c);
     sides.insert(c.side);
   }
@@ -324,11 +257,11 @@ std::vector<Candidate> FacesAlong(const AGraph& plan, const Patch& patch, const 
 }
 
 // One match per face; each view counts for the face of which it saw most.
-void AddMatches(const SGraph& map, const AGraph& plan, const Patch& patch, const std::vector<Candidate>& faces,
+void AddMatches(const SGraph& map, const AGraph& plan, const Patch& patch, const std::vector<FaceCandidate>& faces,
                 const std::vector<std::vector<WallOpening>>& openings, const Eigen::Isometry3d& T_plan_map, std::vector<Match>& matches) {
   const MapSurface& seen = map.surfaces[patch.map_surface];
   std::vector<std::vector<ViewExtent>> views;
-  for (const Candidate& c : faces) views.push_back(ExtentsOnFace(map, seen, plan.surfaces[c.surface.index()], T_plan_map));
+  for (const FaceCandidate& c : faces) views.push_back(ExtentsOnFace(map, seen, plan.surfaces[c.surface.index()], T_plan_map));
   const auto face_of = [&](size_t view) {
     size_t best = 0;
     for (size_t k = 1; k < faces.size(); ++k) {
@@ -373,15 +306,16 @@ std::vector<Match> MatchSurfaces(const SGraph& map, const AGraph& plan, const Ei
   const std::vector<Patch> patches = WallPatches(map, T_plan_map);
   const std::vector<std::vector<WallOpening>> openings = OpeningsOfWalls(plan);
   const SightLines sight(map, T_plan_map);
+  const std::vector<PlannedFace> faces = PlannedFaces(plan, frames, openings);
   const double max_offset_m = map.planar ? options.planar_max_offset_m : options.max_offset_m;
-  std::vector<std::vector<Candidate>> assigned = Assigned(plan, frames, patches, openings, sight, known, max_offset_m, options);
+  std::vector<std::vector<FaceCandidate>> assigned = Assigned(faces, patches, sight, known, max_offset_m, options);
   if (map.planar) {
     DropFurnitureFronts(patches, assigned);
   } else if (const std::vector<FarWall> far = FarWalls(plan, frames, patches, assigned, openings, sight, options); !far.empty()) {
     std::vector<WallDeviation> supposed = known;
     supposed.resize(plan.walls.size());
     for (const FarWall& w : far) supposed[w.wall.index()] = w.deviation;
-    assigned = Assigned(plan, frames, patches, openings, sight, supposed, max_offset_m, options);
+    assigned = Assigned(faces, patches, sight, supposed, max_offset_m, options);
   }
 
   std::vector<Match> matches = MatchLevels(map, plan, T_plan_map, options);
@@ -391,8 +325,8 @@ std::vector<Match> MatchSurfaces(const SGraph& map, const AGraph& plan, const Ei
   }
   for (size_t i = 0; i < patches.size(); ++i) {
     if (assigned[i].empty()) continue;
-    const std::vector<Candidate> faces = map.planar ? std::vector{assigned[i].front()} : FacesAlong(plan, patches[i], assigned[i], sides);
-    AddMatches(map, plan, patches[i], faces, openings, T_plan_map, matches);
+    const std::vector<FaceCandidate> along = map.planar ? std::vector{assigned[i].front()} : FacesAlong(plan, patches[i], assigned[i], sides);
+    AddMatches(map, plan, patches[i], along, openings, T_plan_map, matches);
   }
   std::sort(matches.begin(), matches.end(), [](const Match& a, const Match& b) { return std::pair(a.map_surface, a.plan_surface.value) < std::pair(b.map_surface, b.plan_surface.value); });
   return matches;

@@ -312,6 +312,24 @@ TEST(MatchSurfaces, ASkirtingIsNotTheWallBehindIt) {
   EXPECT_EQ(on.Of(house, near), SurfaceId(9));
 }
 
+TEST(MatchSurfaces, AWallThatRoomsDivideIntoManyFacesIsOneWhenItIsOff) {
+  AGraph house = test::MakeHouse();
+  const Surface whole = house.surfaces[9];
+  const WallId wall = whole.wall;
+  const Eigen::Vector2d part = 0.25 * (whole.end - whole.start);
+  for (int k = 0; k < 4; ++k) {
+    Surface face = whole;
+    face.start = whole.start + k * part;
+    face.end = face.start + part;
+    k == 0 ? house.surfaces[9] = face : house.surfaces.emplace_back(face);
+  }
+  Scene scene;
+  const uint32_t patch = scene.Add({8.8, whole.start.y()}, {8.8, whole.end.y()}, 0.0, 2.5);
+  const SurfaceId found = scene.Of(house, patch);
+  ASSERT_TRUE(found.valid());
+  EXPECT_EQ(house.surfaces[found.index()].wall, wall);
+}
+
 TEST(MatchSurfaces, APatchAlongTwoWallsIsOfBoth) {
   AGraph house = test::MakeHouse();
   house.walls.push_back(house.walls[house.surfaces[8].wall.index()]);  // room C's part of the south wall is a wall of its own, planned 0.2 m further in

@@ -317,11 +317,11 @@ TEST(MatchSurfaces, AWallThatRoomsDivideIntoManyFacesIsOneWhenItIsOff) {
   const Surface whole = house.surfaces[9];
   const WallId wall = whole.wall;
   const Eigen::Vector2d part = 0.25 * (whole.end - whole.start);
-  for (int k = 0; k < 4; ++k) {
-    Surface face = whole;
-    face.start = whole.start + k * part;
-    face.end = face.start + part;
-    k == 0 ? house.surfaces[9] = face : house.surfaces.emplace_back(face);
+  house.surfaces[9].end = whole.start + part;
+  for (int k = 1; k < 4; ++k) {
+    house.surfaces.push_back(whole);
+    house.surfaces.back().start = whole.start + k * part;
+    house.surfaces.back().end = house.surfaces.back().start + part;
   }
   Scene scene;
   const uint32_t patch = scene.Add({8.8, whole.start.y()}, {8.8, whole.end.y()}, 0.0, 2.5);

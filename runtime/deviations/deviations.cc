@@ -163,6 +163,10 @@ DeviationReport AssessDeviations(const AGraph& plan, const JointResult& estimate
     SurfaceDeviation d = DeviationOfFace(MakeFace(frames[surface.wall.index()], surface), wall, options);
     d.surface = SurfaceId(i);
     d.status = statuses[static_cast<size_t>(&wall - estimate.walls.data())];
+    const size_t w = surface.wall.index();
+    if (d.status == SurfaceStatus::kDeviated && w < changes.shape_as_planned.size() && changes.shape_as_planned[w]) {
+      d.status = SurfaceStatus::kUnobserved;
+    }
     for (const SeenSurface& seen : wall.seen) {
       if (seen.surface != d.surface) continue;
       d.observed_m2 = seen.observed_m2;

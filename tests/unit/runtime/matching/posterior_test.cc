@@ -145,9 +145,9 @@ TEST(Doubt, RaysThroughWallsAreForgivenWhereMorePlanesAgreeThanAreAskedFor) {
   const MatcherOptions options;
   Candidate c = Good(100);
   c.rays.through_ratio = 0.5 * (options.accept_max_through_ratio + options.vouch_max_through_ratio);
-  const auto doubt = [&] { return Doubt(c, Hypothesis(), c.fit.consistent_planes - options.ample_more_planes, false, std::nullopt, options); };
+  const auto doubt = [&] { return Doubt(c, Hypothesis(), c.fit.consistent_planes - options.ample_more_planes, {}, std::nullopt, options); };
   EXPECT_EQ(doubt(), "");
-  EXPECT_NE(Doubt(c, Hypothesis(), c.fit.consistent_planes, false, std::nullopt, options), "") << "just as many as asked for";
+  EXPECT_NE(Doubt(c, Hypothesis(), c.fit.consistent_planes, {}, std::nullopt, options), "") << "just as many as asked for";
   c.fit.consistent_ratio = 0.5 * options.accept_min_consistent_ratio;
   EXPECT_NE(doubt(), "") << "most walls are elsewhere";
   c.fit.consistent_ratio = 0.9;

@@ -32,7 +32,9 @@ struct MatcherOptions {
   double accept_sigma_xy_m = 0.10;
   double accept_sigma_yaw_rad = 0.0087;
   int accept_min_planes = 5;                  // of the plan's walls that the map agrees with; one more for 4 rooms, two for 32, ...
-  double accept_min_consistent_ratio = 0.35;  // of the map's wall length; the rest may be furniture and deviated walls
+  // Of the map's wall length; the rest may be furniture and deviated walls. Not asked for where rays vouch for the place, or where it leads "outside"
+  // by vouch_lead_nats while no other place, nor the plan's mirror image, is better than that.
+  double accept_min_consistent_ratio = 0.35;
   double accept_max_through_ratio = 0.02;     // of the rays: may pass through walls of the plan
   int ample_more_planes = 2;                  // this many more agree than are asked for: then vouch_max_through_ratio of the rays may
   // The building's size against the plan's: the walls tell it to within this with two sigmas, or the rays prefer the plan to one that is larger

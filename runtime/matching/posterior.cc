@@ -92,7 +92,8 @@ bool RaysVouch(const std::vector<Candidate>& sorted, double mirrored, bool plana
 
 bool StandsAlone(const std::vector<Candidate>& sorted, double mirrored, const MatcherOptions& options) {
   const auto fits = [](const Candidate& c) { return c.rays.log_likelihood > 0; };
-  return sorted.front().rays.log_likelihood >= options.vouch_lead_nats && mirrored <= 0 && std::none_of(sorted.begin() + 1, sorted.end(), fits);
+  return sorted.size() > 1 && sorted.front().rays.log_likelihood >= options.vouch_lead_nats && mirrored <= 0 &&
+         std::none_of(sorted.begin() + 1, sorted.end(), fits);
 }
 
 bool WallsTellScale(const WallFit& fit, const MatcherOptions& options) {

@@ -43,7 +43,7 @@ struct WrongPlans {
 [[nodiscard]] bool RaysVouch(const std::vector<Candidate>& sorted, double mirrored, bool planar, const MatcherOptions& options);
 
 // Whether the best is the only place at which the rays fit: by vouch_lead_nats better than "outside the plan", while all others, the best in the
-// plan's mirror image among them, are no better than that. `sorted` must not be empty.
+// plan's mirror image among them, are no better than that. Without another there is nothing to tell by. `sorted` must not be empty.
 [[nodiscard]] bool StandsAlone(const std::vector<Candidate>& sorted, double mirrored, const MatcherOptions& options);
 
 // What the rays say about the best place, beside how well they fit.

@@ -155,6 +155,45 @@ TEST(Doubt, RaysThroughWallsAreForgivenWhereMorePlanesAgreeThanAreAskedFor) {
   EXPECT_NE(doubt(), "");
 }
 
+TEST(StandsAlone, OnlyWhereAllOtherPlacesAreNoBetterThanOutside) {
+  const MatcherOptions options;
+  EXPECT_TRUE(StandsAlone({Good(options.vouch_lead_nats), Good(0, 5), Good(-80, 9)}, 0, options));
+  EXPECT_FALSE(StandsAlone({Good(options.vouch_lead_nats - 1), Good(-80, 5)}, 0, options)) << "hardly fits itself";
+  EXPECT_FALSE(StandsAlone({Good(300), Good(-80, 5), Good(1, 9)}, 0, options)) << "the rays fit elsewhere as well";
+  EXPECT_FALSE(StandsAlone({Good(300), Good(-80, 5)}, 1, options)) << "the rays fit the mirror image as well";
+  EXPECT_FALSE(StandsAlone({Good(300)}, 0, options)) << "nothing to compare with";
+}
+
+// Among boxes: half of the rays end on them, and most of what was seen upright are their sides.
+Candidate Cluttered(const MatcherOptions& options) {
+  Candidate c = Good(60);
+  c.fit.consistent_ratio = 0.5 * options.accept_min_consistent_ratio;
+  c.rays.explained_ratio = 0.5;
+  c.rays.in_front_ratio = 0.4;
+  return c;
+}
+
+TEST(Decide, AmongClutterAPlaceThatStandsAloneIsUnique) {
+  const Candidate cluttered = Cluttered(MatcherOptions());
+  const MatchResult alone = Decided({cluttered, Good(-20, 5)});
+  EXPECT_EQ(alone.verdict, Verdict::kUnique) << alone.reason;
+  const MatchResult rivalled = Decided({cluttered, Good(20, 5)});
+  EXPECT_EQ(rivalled.verdict, Verdict::kSearching);
+  EXPECT_NE(rivalled.reason.find("of the walls seen agree"), std::string::npos) << rivalled.reason;
+}
+
+TEST(Doubt, OfAPlaceThatStandsAloneOnlyTheShareOfWallsIsForgiven) {
+  const MatcherOptions options;
+  const RayVerdict alone{false, true};
+  const int planes = Good(0).fit.consistent_planes;
+  const auto doubt = [&](const Candidate& c, int required) { return Doubt(c, Hypothesis(), required, alone, std::nullopt, options); };
+  Candidate cluttered = Cluttered(options);
+  EXPECT_EQ(doubt(cluttered, planes), "");
+  EXPECT_NE(doubt(cluttered, planes + 1), "") << "planes are asked for as anywhere";
+  cluttered.rays.through_ratio = 1.1 * options.accept_max_through_ratio;
+  EXPECT_NE(doubt(cluttered, planes - options.ample_more_planes), "") << "few walls agree, and rays pass through others";
+}
+
 TEST(RequiredPlanes, GrowWithTheNumberOfRooms) {
   const MatcherOptions options;
   EXPECT_EQ(RequiredPlanes(1, 0, options), options.accept_min_planes);

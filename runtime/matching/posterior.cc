@@ -86,8 +86,7 @@ bool RaysVouch(const std::vector<Candidate>& sorted, double mirrored, bool plana
   for (size_t i = 1; i < sorted.size(); ++i) rival = std::max(rival, sorted[i].rays.log_likelihood);
   const double lead = best.log_likelihood - rival;
   return best.explained_ratio >= options.vouch_explained_ratio * counted_ratio && lead >= options.vouch_lead_nats &&
-         (lead >= options.vouch_lead_ratio * best.log_likelihood || lead >= options.vouch_sure_nats ||
-          best.explained_ratio >= options.vouch_nearly_all_ratio);
+         (lead >= options.vouch_lead_ratio * best.log_likelihood || best.explained_ratio >= options.vouch_nearly_all_ratio);
 }
 
 bool StandsAlone(const std::vector<Candidate>& sorted, double mirrored, const MatcherOptions& options) {

@@ -6,148 +6,65 @@
 #include <cmath>
 #include <map>
 #include <optional>
+#include <set>
+#include <utility>
 
+#include "runtime/coupling/face_candidates.h"
 #include "runtime/coupling/level_matching.h"
-#include "runtime/coupling/mixture.h"
 #include "runtime/coupling/sight_lines.h"
 #include "runtime/coupling/wall_frame.h"
 #include "runtime/coupling/wall_openings.h"
+#include "runtime/coupling/wall_patch.h"
+#include "runtime/coupling/wall_search.h"
 
 namespace plumb::runtime {
 namespace {
 
-constexpr double kMapSigma_m = 0.03;       // of a map surface before joint estimation
-constexpr double kMinOverlap_m = 0.2;
 constexpr double kMinSizeShare = 0.5;      // a line behind another is the wall if it has this share of the front's area, ...
 constexpr double kHigher_m = 0.10;         // ... or is seen this much higher up
 constexpr double kFrontPenalty_nats = 8;   // for taking a surface with a wall visible behind it for the wall
-constexpr double kOpeningMargin_m = 0.12;  // frames reach this far beyond an opening's stated size
-constexpr double kMaxOpenRatio = 0.5;      // of a patch's cells: with more of them in openings it is leaves, panes and frames
-constexpr double kRecess_m = 0.02;         // leaves, panes and frames lie at least this far behind the wall's face
-constexpr double kOffPlan_m = 0.06;        // a wall further off its plan ...
-constexpr double kMaxPassedRatio = 0.2;    // ... must stop the lines of sight, all but so many
-constexpr size_t kMinPassed = 5;
 constexpr double kInOpeningRatio = 0.6;    // of an observation's extent either way: it is of what fills the opening
 constexpr double kHalfExtentSigmas = 1.7;  // half the extent of evenly spread points
-constexpr double kMinSingleArea_m2 = 0.6;  // a smaller patch seen from one keyframe only is too rough to tell
 constexpr double kMaxThicker_m = 0.10;     // no wall is built thicker than planned by more: one of its faces is the front of furniture
+constexpr double kSameNormal_cos = 0.999, kMinShared_m2 = 0.5, kMaxFlush_m = 0.2, kMinSharedRatio = 0.5;  // of walls that one patch runs along
+constexpr double kSameDirection_rad = 0.052, kDirectionSigmas = 2;  // patches of one line are parallel to this
 constexpr double kStepPerMetre = 0.01;     // lines are compared at a distance: allow for their direction errors
 
-// A wall patch of the map, in plan coordinates.
-struct Patch {
-  uint32_t map_surface;
-  Eigen::Vector2d start, end;
-  Eigen::Vector3d normal;
-  double z_min, z_max, z_shift, area;  // z_shift: from the map's heights to the plan's
-  const std::vector<Eigen::Vector2f>* cells;  // MapSurface::cells
-  [[nodiscard]] double length() const { return (end - start).norm(); }
-  [[nodiscard]] Eigen::Vector2d midpoint() const { return 0.5 * (start + end); }
+// What one view saw of a face, in the face's coordinates: along it from its start, and up.
+struct ViewExtent {
+  Eigen::Vector2d middle, reach;  // to both sides
 };
 
-// Share of the patch that is seen where its wall has no face. `along` runs along the wall; recessed patches may be frames.
-double OpenRatio(const Patch& patch, const std::vector<WallOpening>& openings, const Eigen::Vector2d& along, bool recessed) {
-  if (patch.cells->empty() || openings.empty()) return 0;
-  const double margin_m = recessed ? kOpeningMargin_m : 0.0;
-  const double from = along.dot(patch.start), per_metre = along.dot(patch.end - patch.start) / patch.length();
-  size_t open = 0;
-  for (const Eigen::Vector2f& cell : *patch.cells) {
-    open += InOpening(openings, along, from + per_metre * cell.x(), cell.y() + patch.z_shift, margin_m) ? 1 : 0;
-  }
-  return static_cast<double>(open) / static_cast<double>(patch.cells->size());
-}
-
-// The observations that lie in one of the wall's openings for the most part.
-std::vector<uint32_t> SeenInOpenings(const SGraph& map, const MapSurface& seen, const Surface& surface, const std::vector<WallOpening>& openings,
-                                     const Eigen::Isometry3d& T_plan_map) {
-  std::vector<uint32_t> out;
-  const Eigen::Vector2d along = (surface.end - surface.start).normalized();
+std::vector<ViewExtent> ExtentsOnFace(const SGraph& map, const MapSurface& seen, const Surface& surface, const Eigen::Isometry3d& T_plan_map) {
   Eigen::Matrix<double, 4, 2> axes = Eigen::Matrix<double, 4, 2>::Zero();  // along and up, of homogeneous points
-  axes.col(0).head<2>() = along;
+  axes.col(0).head<2>() = (surface.end - surface.start).normalized();
   axes(2, 1) = 1;
-  const Eigen::Vector2d margin = Eigen::Vector2d::Constant(kOpeningMargin_m);
   // Sums of squares of a georeferenced plan's coordinates would leave nothing of the variance.
   const Eigen::Translation3d T_face_plan(-surface.start.x(), -surface.start.y(), 0);
-  for (uint32_t i = 0; i < seen.observations.size(); ++i) {
-    const Observation& o = seen.observations[i];
+  std::vector<ViewExtent> out;
+  for (const Observation& o : seen.observations) {
     const PlaneStats stats = o.stats.Transformed(T_face_plan * T_plan_map * map.keyframes[o.keyframe].T_map_kf);
     const Eigen::Vector2d middle = axes.transpose() * stats.C.col(3) / stats.count();
     const Eigen::Vector2d variance = (axes.transpose() * stats.C * axes).diagonal() / stats.count() - middle.cwiseAbs2();
-    const Eigen::Vector2d reach = kHalfExtentSigmas * variance.cwiseMax(0.0).cwiseSqrt();
-    const bool inside = std::any_of(openings.begin(), openings.end(), [&](const WallOpening& w) {
-      const double u = along.dot(w.middle - surface.start);
-      const Eigen::Vector2d lo(u - 0.5 * w.width_m, w.z_min_m), hi(u + 0.5 * w.width_m, w.z_max_m);
-      const Eigen::Vector2d covered = (middle + reach).cwiseMin(hi + margin) - (middle - reach).cwiseMax(lo - margin);
-      return (covered.array() >= kInOpeningRatio * 2 * reach.array()).all();
-    });
-    if (inside) out.push_back(i);
+    out.push_back({middle, kHalfExtentSigmas * variance.cwiseMax(0.0).cwiseSqrt()});
   }
   return out;
 }
 
-// Would a wall in the patch's plane stand in the way of what was seen?
-bool IsSeenThrough(const Patch& patch, const Surface& surface, const std::vector<WallOpening>& openings, const SightLines& sight) {
-  const SightLines::Count count = sight.Meeting({patch.midpoint(), patch.normal.head<2>().normalized(), &surface, &openings});
-  return static_cast<double>(count.passed) > kMaxPassedRatio * static_cast<double>(count.ended + count.passed) && count.passed > kMinPassed;
+// Does the view lie in one of the wall's openings for the most part?
+bool IsInOpening(const ViewExtent& view, const Surface& surface, const std::vector<WallOpening>& openings) {
+  const Eigen::Vector2d along = (surface.end - surface.start).normalized(), margin = Eigen::Vector2d::Constant(kOpeningMargin_m);
+  return std::any_of(openings.begin(), openings.end(), [&](const WallOpening& w) {
+    const double u = along.dot(w.middle - surface.start);
+    const Eigen::Vector2d lo(u - 0.5 * w.width_m, w.z_min_m), hi(u + 0.5 * w.width_m, w.z_max_m);
+    const Eigen::Vector2d covered = (view.middle + view.reach).cwiseMin(hi + margin) - (view.middle - view.reach).cwiseMax(lo - margin);
+    return (covered.array() >= kInOpeningRatio * 2 * view.reach.array()).all();
+  });
 }
 
-struct Candidate {
-  SurfaceId surface;
-  int side = 0;  // 2 * wall id + (1 if it faces along the wall's reference normal): patches of one side lie on one line
-  double offset_m = 0, yaw_rad = 0, cost_nats = 0;
-};
-
-std::vector<Patch> WallPatches(const SGraph& map, const Eigen::Isometry3d& T_plan_map) {
-  std::vector<Patch> patches;
-  for (size_t i = 0; i < map.surfaces.size(); ++i) {
-    const MapSurface& s = map.surfaces[i];
-    if (s.kind != SurfaceKind::kWall || s.observations.empty()) continue;
-    if (s.observations.size() < 2 && s.area_m2 < kMinSingleArea_m2) continue;
-    const Eigen::Vector3d start = T_plan_map * Eigen::Vector3d(s.start.x(), s.start.y(), s.z_min_m);
-    const Eigen::Vector3d end = T_plan_map * Eigen::Vector3d(s.end.x(), s.end.y(), s.z_max_m);
-    patches.push_back({static_cast<uint32_t>(i), start.head<2>(), end.head<2>(), T_plan_map.linear() * s.plane.n, start.z(), end.z(),
-                       T_plan_map.translation().z(), s.area_m2, &s.cells});
-  }
-  return patches;
-}
-
-// Overlap of [a0, a1] and [b0, b1] as a share of the shorter.
-double OverlapRatio(double a0, double a1, double b0, double b1) {
-  const double shorter = std::min(a1 - a0, b1 - b0);
-  return shorter > 0 ? (std::min(a1, b1) - std::max(a0, b0)) / shorter : 0.0;
-}
-
-std::optional<Candidate> Compare(const Patch& patch, SurfaceId id, const Surface& surface, const WallFrame& frame, const WallDeviation& known,
-                                 const std::vector<WallOpening>& openings, const SightLines& sight, double max_offset_m, const CouplingOptions& options) {
-  const Eigen::Vector3d& n = surface.normal;
-  const double yaw = std::atan2(n.x() * patch.normal.y() - n.y() * patch.normal.x(), n.head<2>().dot(patch.normal.head<2>()));
-  if (std::abs(yaw - known.yaw_rad) > options.max_yaw_rad) return std::nullopt;
-  if (OverlapRatio(patch.z_min, patch.z_max, surface.z_min_m, surface.z_max_m) < options.min_height_overlap_ratio) return std::nullopt;
-
-  const Eigen::Vector2d along = (surface.end - surface.start).normalized();
-  const double a0 = along.dot(patch.start - surface.start), a1 = along.dot(patch.end - surface.start);
-  const double from = std::max(0.0, std::min(a0, a1)), to = std::min(surface.length_m(), std::max(a0, a1));
-  if (to - from < kMinOverlap_m || OverlapRatio(std::min(a0, a1), std::max(a0, a1), 0, surface.length_m()) < options.min_overlap_ratio) {
-    return std::nullopt;
-  }
-  const double middle = 0.5 * (from + to);
-  const Eigen::Vector2d on_patch = patch.start + (middle - a0) / (a1 - a0) * (patch.end - patch.start);
-  const Eigen::Vector2d on_plan = surface.start + middle * along;
-
-  Candidate c;
-  c.surface = id;
-  c.side = static_cast<int>(2 * surface.wall.value) + (frame.normal.dot(n) > 0 ? 1 : 0);
-  c.offset_m = n.head<2>().dot(on_patch - on_plan);
-  c.yaw_rad = yaw;
-  const Eigen::Vector2d arm = on_plan - frame.pivot.head<2>();
-  const double expected = known.offset_m * frame.normal.dot(n) + known.yaw_rad * n.head<2>().dot(Eigen::Vector2d(-arm.y(), arm.x()));
-  const Eigen::Vector2d residual(c.offset_m - expected, yaw - known.yaw_rad);
-  if (std::abs(residual.x()) > max_offset_m) return std::nullopt;
-  if (OpenRatio(patch, openings, along, std::min(c.offset_m, residual.x()) < -kRecess_m) > kMaxOpenRatio) return std::nullopt;
-  if (std::abs(c.offset_m) > kOffPlan_m && IsSeenThrough(patch, surface, openings, sight)) return std::nullopt;
-  const double yaw_sigma = kMapSigma_m / std::max(patch.length(), 0.3);
-  const Eigen::Matrix2d covariance = Eigen::Vector2d(kMapSigma_m * kMapSigma_m, yaw_sigma * yaw_sigma).asDiagonal();
-  c.cost_nats = AssessMixture(residual, covariance, options).cost_nats - std::log((to - from) / std::max(patch.length(), to - from));
-  return c;
+// Length of the face that the view saw.
+double Seen_m(const ViewExtent& view, const Surface& surface) {
+  return std::min(surface.length_m(), view.middle.x() + view.reach.x()) - std::max(0.0, view.middle.x() - view.reach.x());
 }
 
 // Collinear patches on one side of one wall.
@@ -155,6 +72,12 @@ struct Line {
   std::vector<size_t> patches;  // the first is the largest and gives the line
   double area = 0, z_max = -1e300;
 };
+
+// Of one direction, as far as patches of their lengths can tell?
+bool IsParallel(const Patch& a, const Patch& b) {
+  const double turn = std::atan2(a.normal.x() * b.normal.y() - a.normal.y() * b.normal.x(), a.normal.head<2>().dot(b.normal.head<2>()));
+  return std::abs(turn) < kSameDirection_rad + kDirectionSigmas * kMapSigma_m * (1 / a.length() + 1 / b.length());
+}
 
 // Signed distance of b's middle from a's line, + in front of it (into the free space), beyond what their distance excuses.
 double Step(const Patch& a, const Patch& b, double max_step_m) {
@@ -166,17 +89,17 @@ double Step(const Patch& a, const Patch& b, double max_step_m) {
 
 class Assignment {
  public:
-  Assignment(const std::vector<Patch>& patches, std::vector<std::vector<Candidate>> candidates, const CouplingOptions& options)
+  Assignment(const std::vector<Patch>& patches, std::vector<std::vector<FaceCandidate>> candidates, const CouplingOptions& options)
       : patches_(patches), candidates_(std::move(candidates)), options_(options) {
     for (auto& list : candidates_) {
-      std::erase_if(list, [&](const Candidate& c) { return c.cost_nats > options_.unmatched_cost_nats; });
-      std::stable_sort(list.begin(), list.end(), [](const Candidate& a, const Candidate& b) { return a.cost_nats < b.cost_nats; });
+      std::erase_if(list, [&](const FaceCandidate& c) { return c.cost_nats > options_.unmatched_cost_nats; });
+      std::stable_sort(list.begin(), list.end(), [](const FaceCandidate& a, const FaceCandidate& b) { return a.cost_nats < b.cost_nats; });
     }
   }
 
   // Each patch takes its cheapest candidate; sides whose patches do not line up keep one line and the others move on. Every turn removes
   // at least one candidate, so it ends.
-  const std::vector<std::vector<Candidate>>& Solve() {
+  const std::vector<std::vector<FaceCandidate>>& Solve() {
     while (ResolveOneSide()) {
     }
     return candidates_;
@@ -204,15 +127,17 @@ class Assignment {
   }
 
   void DropSide(size_t patch, int side) {
-    std::erase_if(candidates_[patch], [&](const Candidate& c) { return c.side == side; });
+    std::erase_if(candidates_[patch], [&](const FaceCandidate& c) { return c.side == side; });
   }
 
   std::vector<Line> Lines(std::vector<size_t> members) const {
     std::stable_sort(members.begin(), members.end(), [&](size_t a, size_t b) { return patches_[a].area > patches_[b].area; });
     std::vector<Line> lines;
     for (size_t i : members) {
-      auto line = std::find_if(lines.begin(), lines.end(),
-                               [&](const Line& l) { return Step(patches_[l.patches.front()], patches_[i], options_.max_step_m) == 0; });
+      auto line = std::find_if(lines.begin(), lines.end(), [&](const Line& l) {
+        const Patch& first = patches_[l.patches.front()];
+        return Step(first, patches_[i], options_.max_step_m) == 0 && IsParallel(first, patches_[i]);
+      });
       if (line == lines.end()) line = lines.emplace(lines.end());
       line->patches.push_back(i);
       line->area += patches_[i].area;
@@ -226,7 +151,7 @@ class Assignment {
     double sum = 0;
     for (size_t i : line.patches) {
       const auto& list = candidates_[i];
-      const auto other = std::find_if(list.begin(), list.end(), [&](const Candidate& c) { return c.side != side; });
+      const auto other = std::find_if(list.begin(), list.end(), [&](const FaceCandidate& c) { return c.side != side; });
       sum += !elsewhere ? list.front().cost_nats : other == list.end() ? options_.unmatched_cost_nats : other->cost_nats;
     }
     return sum / static_cast<double>(line.patches.size());
@@ -261,13 +186,13 @@ class Assignment {
   }
 
   const std::vector<Patch>& patches_;
-  std::vector<std::vector<Candidate>> candidates_;
+  std::vector<std::vector<FaceCandidate>> candidates_;
   const CouplingOptions& options_;
 };
 
 // Drops what stands before a wall whose other face was seen as well, where the two together would make the wall far too thick. A planar laser
 // sees of a cupboard no more and no less than of a wall; a lidar with many rings sees over it, and lines decide.
-void DropFurnitureFronts(const std::vector<Patch>& patches, std::vector<std::vector<Candidate>>& assigned) {
+void DropFurnitureFronts(const std::vector<Patch>& patches, std::vector<std::vector<FaceCandidate>>& assigned) {
   std::map<int, std::pair<double, double>> sides;  // sum of offset * area, area
   for (size_t i = 0; i < patches.size(); ++i) {
     if (assigned[i].empty()) continue;
@@ -286,10 +211,80 @@ void DropFurnitureFronts(const std::vector<Patch>& patches, std::vector<std::vec
   }
 }
 
+// Per patch its candidates, the chosen one first.
+std::vector<std::vector<FaceCandidate>> Assigned(const std::vector<PlannedFace>& faces, const std::vector<Patch>& patches, const SightLines& sight,
+                                             const std::vector<WallDeviation>& known, double max_offset_m, const CouplingOptions& options) {
+  std::vector<std::vector<FaceCandidate>> candidates;
+  for (const Patch& patch : patches) candidates.push_back(CandidatesOf(patch, faces, sight, known, max_offset_m, options));
+  return Assignment(patches, std::move(candidates), options).Solve();
+}
+
+std::vector<FarWall> FarWalls(const AGraph& plan, const std::vector<WallFrame>& frames, const std::vector<Patch>& patches,
+                              const std::vector<std::vector<FaceCandidate>>& assigned, const std::vector<std::vector<WallOpening>>& openings,
+                              const SightLines& sight, const CouplingOptions& options) {
+  std::vector<Patch> unmatched;
+  std::vector<bool> matched(plan.walls.size(), false);
+  for (size_t i = 0; i < patches.size(); ++i) {
+    if (assigned[i].empty()) {
+      unmatched.push_back(patches[i]);
+    } else {
+      matched[plan.surfaces[assigned[i].front().surface.index()].wall.index()] = true;
+    }
+  }
+  return FindFarWalls(plan, frames, unmatched, matched, openings, sight, options);
+}
+
+// The chosen face, and those of other walls that the patch goes on along and that nothing else was matched to. `sides` gets theirs.
+std::vector<FaceCandidate> FacesAlong(const AGraph& plan, const Patch& patch, const std::vector<FaceCandidate>& candidates, std::set<int>& sides) {
+  std::vector<FaceCandidate> faces{candidates.front()};
+  const auto beside = [&](const Surface& a, const Surface& b) {
+    const Eigen::Vector2d along = (a.end - a.start).normalized();
+    const double from = along.dot(b.start - a.start), to = along.dot(b.end - a.start);
+    return a.normal.dot(b.normal) > kSameNormal_cos && std::min(a.length_m(), std::max(from, to)) - std::max(0.0, std::min(from, to)) < kMinOverlap_m;
+  };
+  for (const FaceCandidate& c : candidates) {
+    const Surface& surface = plan.surfaces[c.surface.index()];
+    // What stands further in front of a wall, flush with the next, is as likely to be furniture in a recess.
+    if (sides.contains(c.side) || c.offset_m > kMaxFlush_m || ExplainedRatio(patch, surface) * patch.area < kMinShared_m2) continue;
+    const double a = (surface.end - surface.start).dot(patch.start - surface.start) / surface.length_m();
+    const double b = (surface.end - surface.start).dot(patch.end - surface.start) / surface.length_m();
+    if (std::min(surface.length_m(), std::max(a, b)) - std::max(0.0, std::min(a, b)) < kMinSharedRatio * surface.length_m()) continue;
+    if (!std::all_of(faces.begin(), faces.end(), [&](const FaceCandidate& f) { return beside(plan.surfaces[f.surface.index()], surface); })) continue;
+    faces.push_back(c);
+    sides.insert(c.side);
+  }
+  return faces;
+}
+
+// One match per face; each view counts for the face of which it saw most.
+void AddMatches(const SGraph& map, const AGraph& plan, const Patch& patch, const std::vector<FaceCandidate>& faces,
+                const std::vector<std::vector<WallOpening>>& openings, const Eigen::Isometry3d& T_plan_map, std::vector<Match>& matches) {
+  const MapSurface& seen = map.surfaces[patch.map_surface];
+  std::vector<std::vector<ViewExtent>> views;
+  for (const FaceCandidate& c : faces) views.push_back(ExtentsOnFace(map, seen, plan.surfaces[c.surface.index()], T_plan_map));
+  const auto face_of = [&](size_t view) {
+    size_t best = 0;
+    for (size_t k = 1; k < faces.size(); ++k) {
+      if (Seen_m(views[k][view], plan.surfaces[faces[k].surface.index()]) > Seen_m(views[best][view], plan.surfaces[faces[best].surface.index()])) best = k;
+    }
+    return best;
+  };
+  for (size_t k = 0; k < faces.size(); ++k) {
+    const Surface& surface = plan.surfaces[faces[k].surface.index()];
+    std::vector<uint32_t> mistaken;
+    for (uint32_t i = 0; i < seen.observations.size(); ++i) {
+      if (face_of(i) != k || IsInOpening(views[k][i], surface, openings[surface.wall.index()])) mistaken.push_back(i);
+    }
+    if (mistaken.size() == seen.observations.size()) continue;
+    matches.push_back({patch.map_surface, faces[k].surface, RoomId(), faces[k].offset_m, faces[k].yaw_rad, std::move(mistaken)});
+  }
+}
+
 }  // namespace
 
 std::string CouplingOptions::Check() const {
   const std::pair<const char*, double> positive[] = {{"max_offset_m", max_offset_m}, {"planar_max_offset_m", planar_max_offset_m}, {"max_yaw_rad", max_yaw_rad},
+      {"far_offset_m", far_offset_m}, {"far_yaw_rad", far_yaw_rad},
       {"max_level_offset_m", max_level_offset_m}, {"max_step_m", max_step_m}, {"offset_tau0_m", offset_tau0_m},
       {"offset_tau1_m", offset_tau1_m}, {"yaw_tau0_rad", yaw_tau0_rad}, {"yaw_tau1_rad", yaw_tau1_rad}};
   for (const auto& [name, value] : positive) {
@@ -311,31 +306,29 @@ std::vector<Match> MatchSurfaces(const SGraph& map, const AGraph& plan, const Ei
   const std::vector<Patch> patches = WallPatches(map, T_plan_map);
   const std::vector<std::vector<WallOpening>> openings = OpeningsOfWalls(plan);
   const SightLines sight(map, T_plan_map);
+  const std::vector<PlannedFace> faces = PlannedFaces(plan, frames, openings);
   const double max_offset_m = map.planar ? options.planar_max_offset_m : options.max_offset_m;
-  std::vector<std::vector<Candidate>> candidates(patches.size());
-  for (size_t i = 0; i < patches.size(); ++i) {
-    for (size_t j = 0; j < plan.surfaces.size(); ++j) {
-      const Surface& surface = plan.surfaces[j];
-      if (!surface.wall.valid() || !IsFace(frames[surface.wall.index()], surface)) continue;
-      const WallDeviation deviation = surface.wall.index() < known.size() ? known[surface.wall.index()] : WallDeviation{};
-      const size_t wall = surface.wall.index();
-      if (auto c = Compare(patches[i], SurfaceId(j), surface, frames[wall], deviation, openings[wall], sight, max_offset_m, options)) candidates[i].push_back(*c);
-    }
+  std::vector<std::vector<FaceCandidate>> assigned = Assigned(faces, patches, sight, known, max_offset_m, options);
+  if (map.planar) {
+    DropFurnitureFronts(patches, assigned);
+  } else if (const std::vector<FarWall> far = FarWalls(plan, frames, patches, assigned, openings, sight, options); !far.empty()) {
+    std::vector<WallDeviation> supposed = known;
+    supposed.resize(plan.walls.size());
+    for (const FarWall& w : far) supposed[w.wall.index()] = w.deviation;
+    assigned = Assigned(faces, patches, sight, supposed, max_offset_m, options);
   }
-  std::vector<std::vector<Candidate>> assigned = Assignment(patches, std::move(candidates), options).Solve();
-  if (map.planar) DropFurnitureFronts(patches, assigned);
 
   std::vector<Match> matches = MatchLevels(map, plan, T_plan_map, options);
+  std::set<int> sides;
+  for (const auto& list : assigned) {
+    if (!list.empty()) sides.insert(list.front().side);
+  }
   for (size_t i = 0; i < patches.size(); ++i) {
     if (assigned[i].empty()) continue;
-    const Candidate& c = assigned[i].front();
-    const Surface& surface = plan.surfaces[c.surface.index()];
-    const MapSurface& seen = map.surfaces[patches[i].map_surface];
-    std::vector<uint32_t> mistaken = SeenInOpenings(map, seen, surface, openings[surface.wall.index()], T_plan_map);
-    if (mistaken.size() == seen.observations.size()) continue;
-    matches.push_back({patches[i].map_surface, c.surface, RoomId(), c.offset_m, c.yaw_rad, std::move(mistaken)});
+    const std::vector<FaceCandidate> along = map.planar ? std::vector{assigned[i].front()} : FacesAlong(plan, patches[i], assigned[i], sides);
+    AddMatches(map, plan, patches[i], along, openings, T_plan_map, matches);
   }
-  std::sort(matches.begin(), matches.end(), [](const Match& a, const Match& b) { return a.map_surface < b.map_surface; });
+  std::sort(matches.begin(), matches.end(), [](const Match& a, const Match& b) { return std::pair(a.map_surface, a.plan_surface.value) < std::pair(b.map_surface, b.plan_surface.value); });
   return matches;
 }
 

@@ -58,8 +58,13 @@ std::vector<SurfaceStatus> WallStatuses(const JointResult& estimate, const Devia
   for (size_t k = 0; k < observed.size(); ++k) {
     const WallEstimate& w = estimate.walls[observed[k]];
     const bool large = std::abs(w.deviation.offset_m) >= options.min_offset_m || std::abs(w.deviation.yaw_rad) >= options.min_yaw_rad;
-    const bool deviated = rejected[k] && large && w.p_deviated >= options.min_p_deviated;
-    const bool tested = MinimalDetectable_m(TestVariance_m2(w, Eigen::Vector2d::UnitX(), options)) <= options.max_mdb_m;
+    const double variance_m2 = TestVariance_m2(w, Eigen::Vector2d::UnitX(), options), two_sigma_m = 2 * std::sqrt(variance_m2);
+    const double measured_m = std::abs(w.evidence.measured.x());
+    const bool testable = MinimalDetectable_m(variance_m2) <= options.max_mdb_m;
+    // A turn read off a short piece of a wall that may stand anywhere is no finding.
+    const bool placed = testable || measured_m > two_sigma_m;
+    const bool deviated = rejected[k] && large && w.p_deviated >= options.min_p_deviated && placed;
+    const bool tested = testable && measured_m + two_sigma_m <= options.max_undecided_m;
     statuses[observed[k]] = deviated ? SurfaceStatus::kDeviated : tested ? SurfaceStatus::kAsPlanned : SurfaceStatus::kUnobserved;
   }
   return statuses;
@@ -109,7 +114,7 @@ std::string CountsText(const AGraph& plan, const DeviationReport& report) {
   }
   const auto count = [&](SurfaceStatus status) { return std::count(gravest.begin(), gravest.end(), status); };
   const auto deviated = count(SurfaceStatus::kDeviated), missing = count(SurfaceStatus::kMissing);
-  std::string text = fmt::format(" {} of {} seen walls deviate", deviated, deviated + count(SurfaceStatus::kAsPlanned));
+  std::string text = fmt::format(" {} of {} seen walls {}", deviated, deviated + count(SurfaceStatus::kAsPlanned), deviated == 1 ? "deviates" : "deviate");
   if (missing > 0) text += fmt::format(", {} {} missing", missing, missing == 1 ? "is" : "are");
   return text + ".";
 }
@@ -132,7 +137,8 @@ std::string DeviationOptions::Check() const {
   }
   if (!(min_p_deviated >= 0 && min_p_deviated <= 1)) return fmt::format("DeviationOptions.min_p_deviated = {}; must be in [0, 1]", min_p_deviated);
   const std::pair<const char*, double> magnitudes[] = {{"tolerance_offset_m", tolerance_offset_m}, {"tolerance_yaw_rad", tolerance_yaw_rad},
-      {"min_offset_m", min_offset_m}, {"min_yaw_rad", min_yaw_rad}, {"min_observed_m2", min_observed_m2}, {"max_mdb_m", max_mdb_m}};
+      {"min_offset_m", min_offset_m}, {"min_yaw_rad", min_yaw_rad}, {"min_observed_m2", min_observed_m2}, {"max_mdb_m", max_mdb_m},
+      {"max_undecided_m", max_undecided_m}};
   for (const auto& [name, value] : magnitudes) {
     if (!(value >= 0)) return fmt::format("DeviationOptions.{} = {}; must be >= 0", name, value);
   }

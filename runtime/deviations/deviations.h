@@ -23,7 +23,8 @@ struct DeviationOptions {
   double min_yaw_rad = 0.0087;
   double min_observed_m2 = 0.5;         // less, over all faces of a wall, was not seen well enough to judge
   double min_p_deviated = 0.95;
-  double max_mdb_m = 0.2;               // a wall of which only larger deviations would have been found was not tested
+  double max_mdb_m = 0.2;               // a wall of which only larger deviations would have been found was not tested; ...
+  double max_undecided_m = 0.1;         // ... nor one that may be so far off by what was seen (95 %), whatever is likely beforehand
   PresenceOptions presence;
   UnplannedOptions unplanned;
   [[nodiscard]] std::string Check() const;  // empty, or the field, its value and the rule
@@ -67,7 +68,7 @@ struct WallChanges {
 // Every face of a wall carries the wall's deviation, moved to the face's own midpoint and normal, plus its share of the thickness, and the
 // wall's status; ends of walls and curved surfaces stay unobserved. A wall deviates if Benjamini-Hochberg rejects "as planned" on the
 // chi-square (2 dof) of its evidence of (offset, yaw) plus tolerance, and it exceeds a minimum magnitude, and p_deviated is high. Where neither it nor a
-// deviation of max_mdb_m could have been told, the wall is unobserved, however much of it was seen.
+// deviation of max_mdb_m could have been told, or what was seen leaves one of max_undecided_m possible, the wall is unobserved, however much of it was seen.
 // The faces of a wall that `changes` calls missing are missing, whatever the estimate. The gauge says how many walls deviate and are missing.
 [[nodiscard]] DeviationReport AssessDeviations(const AGraph& plan, const JointResult& estimate, const DeviationOptions& options = {},
                                                const WallChanges& changes = {});

@@ -1,17 +1,12 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
 
 #include "runtime/deviations/deviations.h"
-#include "runtime/numerics/rounded.h"
+#include "runtime/deviations/deviations_keys.h"
 
 namespace plumb::runtime {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
-double Metres(double v) { return Rounded(v, 1e5); }
-double Degrees(double rad) { return Rounded(rad * 180 / std::numbers::pi, 1e4); }
 Json TextOrNull(const std::string& text) { return text.empty() ? Json(nullptr) : Json(text); }
 
 Json SurfaceEntry(const AGraph& plan, const SurfaceDeviation& d) {
@@ -21,13 +16,8 @@ Json SurfaceEntry(const AGraph& plan, const SurfaceDeviation& d) {
   out["wall_guid"] = s.wall.valid() ? TextOrNull(plan.walls[s.wall.index()].guid) : Json(nullptr);
   out["storey"] = s.storey.valid() ? Json(plan.storeys[s.storey.index()].name) : Json(nullptr);
   out["normal"] = {Rounded(s.normal.x(), 1e9), Rounded(s.normal.y(), 1e9), Rounded(s.normal.z(), 1e9)};
-  out["status"] = StatusName(d.status);
-  out["translation_m"] = Metres(d.translation_m);
-  out["sigma_translation_m"] = Metres(d.sigma_translation_m);
-  out["rotation_deg"] = Degrees(d.rotation_rad);
-  out["sigma_rotation_deg"] = Degrees(d.sigma_rotation_rad);
+  PutEstimate(d, out);
   out["tilt_deg"] = Degrees(d.tilt_rad);
-  out["p_deviated"] = Rounded(d.p_deviated, 1e6);
   out["mdb_m"] = std::isfinite(d.mdb_m) ? Json(Metres(d.mdb_m)) : Json(nullptr);
   out["observed_m2"] = Rounded(d.observed_m2, 1e2);
   out["points"] = static_cast<int64_t>(std::llround(d.points));

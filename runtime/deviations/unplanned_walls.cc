@@ -5,30 +5,23 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
-#include <set>
 
 #include "runtime/deviations/panel.h"
 #include "runtime/deviations/planned_walls.h"
 #include "runtime/deviations/standing_walls.h"
+#include "runtime/deviations/wall_candidates.h"
 #include "runtime/matching/ray_caster.h"
 #include "schema/polygon.h"
 
 namespace plumb::runtime {
 namespace {
 
-constexpr double kSameLine_m = 0.06, kSameDirection_cos = 0.995;  // pieces of one face
-constexpr double kMaxGap_m = 0.5;
 constexpr double kOpposite_cos = 0.99;
 constexpr double kMinThickness_m = 0.03;
 constexpr double kMinOverlap = 0.5;          // of the shorter of two faces
-constexpr double kColumn_m = 0.1;            // of MapSurface::cells ...
-constexpr int kMinCells = 3;                 // ... of one column of a surface that stands there
-constexpr double kMaxTrimGap_m = 0.3;
 constexpr double kOn_m = 0.08, kBeyond_m = 0.25, kEdge_m = 0.15;
 constexpr double kMinInRoom = 0.5;           // of a wall's length
-constexpr double kUnseen = -std::numeric_limits<double>::infinity();
 constexpr double kParallel_cos = 0.94;
 constexpr double kMaxExplained = 0.5;        // of a wall's length
 constexpr double kMaxMirrored = 0.5;         // of the lines that end on it
@@ -36,128 +29,6 @@ constexpr double kMaxOver = 0.02;            // of the lines that meet it
 constexpr double kMinStanding_m2 = 0.5;
 constexpr double kSample_m = 0.1;
 constexpr double kSameWall_m = 0.25, kSameWall_cos = 0.985;  // across and between two findings of one wall, which may be of either face
-
-// One face of something upright, of one map surface or several on one line. The panel's normal is into the free space.
-struct Candidate {
-  Panel panel;
-  double area_m2 = 0;
-  std::vector<double> top_m;     // per kColumn_m of its length the highest that was seen there, in the room; -inf: nothing
-  std::set<uint32_t> keyframes;
-  RoomId room;
-  double required_top_m = 0;     // to be as high as a wall
-  size_t ended = 0, passed = 0, over = 0, mirrored = 0;  // lines of sight
-};
-
-Candidate CandidateOf(const MapSurface& s, const Eigen::Isometry3d& T_plan_map) {
-  Candidate c;
-  const auto in_plan = [&](const Eigen::Vector2d& p) { return Eigen::Vector2d((T_plan_map * Eigen::Vector3d(p.x(), p.y(), 0)).head<2>()); };
-  const double up_m = T_plan_map.translation().z();
-  const Eigen::Vector2d start = in_plan(s.start), end = in_plan(s.end);
-  c.panel.along = (end - start).normalized();
-  c.panel.normal = {-c.panel.along.y(), c.panel.along.x()};
-  c.panel.start = start;
-  c.panel.length_m = (end - start).norm();
-  c.panel.z_min_m = s.z_min_m + up_m;
-  c.panel.z_max_m = s.z_max_m + up_m;
-  c.area_m2 = s.area_m2;
-  c.top_m.assign(static_cast<size_t>(std::ceil(c.panel.length_m / kColumn_m)), kUnseen);
-  std::vector<int> cells(c.top_m.size(), 0);
-  for (const Eigen::Vector2f& cell : s.cells) {
-    const auto column = static_cast<size_t>(std::max(0.0, std::floor(static_cast<double>(cell.x()) / kColumn_m)));
-    if (column >= c.top_m.size()) continue;
-    c.top_m[column] = std::max(c.top_m[column], static_cast<double>(cell.y()) + up_m);
-    ++cells[column];
-  }
-  // What only touches the surface's plane, such as the floor beyond its end, is none of it.
-  for (size_t i = 0; i < cells.size(); ++i) {
-    if (cells[i] < kMinCells) c.top_m[i] = kUnseen;
-  }
-  for (const Observation& o : s.observations) c.keyframes.insert(o.keyframe);
-  return c;
-}
-
-// Do the two lie on one line, one going on where the other ends?
-bool Continues(const Candidate& a, const Candidate& b) {
-  if (a.panel.normal.dot(b.panel.normal) < kSameDirection_cos) return false;
-  const Eigen::Vector2d b_end = b.panel.start + b.panel.length_m * b.panel.along;
-  const double from = a.panel.U(b.panel.start), to = a.panel.U(b_end);
-  const double gap_m = std::max({0.0, std::min(from, to) - a.panel.length_m, -std::max(from, to)});
-  if (gap_m > kMaxGap_m) return false;
-  return std::abs(a.panel.W(0.5 * (b.panel.start + b_end))) < kSameLine_m;
-}
-
-// Lengthens `a`, whose line stays.
-void Append(const Candidate& b, Candidate* a) {
-  const Eigen::Vector2d b_end = b.panel.start + b.panel.length_m * b.panel.along;
-  const double from = std::min(0.0, a->panel.U(b.panel.start)), to = std::max(a->panel.length_m, a->panel.U(b_end));
-  std::vector<double> top_m(static_cast<size_t>(std::ceil((to - from) / kColumn_m)), kUnseen);
-  const auto put = [&](const std::vector<double>& tops, double at) {
-    for (size_t i = 0; i < tops.size(); ++i) {
-      const auto column = static_cast<size_t>(std::clamp((at - from) / kColumn_m + static_cast<double>(i), 0.0, static_cast<double>(top_m.size()) - 1));
-      top_m[column] = std::max(top_m[column], tops[i]);
-    }
-  };
-  put(a->top_m, 0);
-  put(b.top_m, a->panel.U(b.panel.start));
-  a->top_m = std::move(top_m);
-  a->panel.start += from * a->panel.along;
-  a->panel.length_m = to - from;
-  a->panel.z_min_m = std::min(a->panel.z_min_m, b.panel.z_min_m);
-  a->panel.z_max_m = std::max(a->panel.z_max_m, b.panel.z_max_m);
-  a->area_m2 += b.area_m2;
-  a->keyframes.insert(b.keyframes.begin(), b.keyframes.end());
-}
-
-// What matched nothing, in pieces as long as they go.
-std::vector<Candidate> UnmatchedFaces(const SGraph& map, const std::vector<Match>& matches, const Eigen::Isometry3d& T_plan_map) {
-  std::set<uint32_t> matched;
-  for (const Match& m : matches) matched.insert(m.map_surface);
-  std::vector<Candidate> faces;
-  for (size_t i = 0; i < map.surfaces.size(); ++i) {
-    const MapSurface& s = map.surfaces[i];
-    if (s.kind == SurfaceKind::kWall && !s.observations.empty() && s.length_m() > kColumn_m && !matched.contains(static_cast<uint32_t>(i))) {
-      faces.push_back(CandidateOf(s, T_plan_map));
-    }
-  }
-  std::stable_sort(faces.begin(), faces.end(), [](const Candidate& a, const Candidate& b) { return a.area_m2 > b.area_m2; });
-  std::vector<Candidate> out;
-  for (const Candidate& face : faces) {
-    const auto same = std::find_if(out.begin(), out.end(), [&](const Candidate& c) { return Continues(c, face); });
-    if (same == out.end()) {
-      out.push_back(face);
-    } else {
-      Append(face, &*same);
-    }
-  }
-  return out;
-}
-
-// Length of it that was seen up to the height.
-double LengthAbove(const Candidate& c, double top_m) {
-  return kColumn_m * static_cast<double>(std::count_if(c.top_m.begin(), c.top_m.end(), [&](double top) { return top >= top_m; }));
-}
-
-// Leaves of it the longest part that was seen without a long gap.
-void Trim(Candidate* c) {
-  const auto max_gap = static_cast<size_t>(std::lround(kMaxTrimGap_m / kColumn_m));
-  size_t best_from = 0, best_to = 0;
-  for (size_t i = 0; i < c->top_m.size();) {
-    size_t from = i, to = i, gap = 0;
-    for (; i < c->top_m.size() && gap <= max_gap; ++i) {
-      gap = std::isfinite(c->top_m[i]) ? 0 : gap + 1;
-      if (gap == 0) to = i + 1;
-    }
-    while (from < to && !std::isfinite(c->top_m[from])) ++from;
-    if (to - from > best_to - best_from) {
-      best_from = from;
-      best_to = to;
-    }
-  }
-  const double length_m = std::min(c->panel.length_m, kColumn_m * static_cast<double>(best_to));
-  c->panel.start += kColumn_m * static_cast<double>(best_from) * c->panel.along;
-  c->panel.length_m = std::max(0.0, length_m - kColumn_m * static_cast<double>(best_from));
-  c->top_m = {c->top_m.begin() + static_cast<std::ptrdiff_t>(best_from), c->top_m.begin() + static_cast<std::ptrdiff_t>(best_to)};
-}
 
 // Of a footprint, along its longest side.
 Panel CentreLine(const UnplannedWall& wall) {
@@ -185,10 +56,10 @@ class Search {
         planned_(plan, matches), faces_(UnmatchedFaces(map, matches, T_plan_map_)) {}
 
   std::vector<UnplannedWall> Run() {
-    std::erase_if(faces_, [&](Candidate& c) { return !CouldBeWall(c); });
+    std::erase_if(faces_, [&](WallCandidate& c) { return !CouldBeWall(c); });
     if (faces_.empty()) return {};
     CountSights();
-    std::erase_if(faces_, [&](const Candidate& c) {
+    std::erase_if(faces_, [&](const WallCandidate& c) {
       const double met = static_cast<double>(c.ended + c.passed);
       return c.ended == 0 || static_cast<double>(c.passed) > options_.max_passed_ratio * met ||
              static_cast<double>(c.mirrored) > kMaxMirrored * static_cast<double>(c.ended);
@@ -208,15 +79,11 @@ class Search {
 
  private:
   // Long enough, on the floor, in a room of the plan, and nothing that the plan has.
-  bool CouldBeWall(Candidate& c) const {
+  bool CouldBeWall(WallCandidate& c) const {
     if (c.panel.length_m < options_.min_length_m || c.keyframes.size() < static_cast<size_t>(options_.min_keyframes)) return false;
     c.room = RoomOf(c);
     if (!c.room.valid()) return false;
-    for (size_t i = 0; i < c.top_m.size(); ++i) {
-      const Eigen::Vector2d p = c.panel.start + kColumn_m * (static_cast<double>(i) + 0.5) * c.panel.along;
-      if (!Contains(plan_.rooms[c.room.index()], p)) c.top_m[i] = kUnseen;
-    }
-    Trim(&c);
+    TrimTo(plan_.rooms[c.room.index()], &c);
     if (c.panel.length_m < options_.min_length_m) return false;
     const double floor_m = plan_.rooms[c.room.index()].floor_z_m;
     if (c.panel.z_min_m > floor_m + options_.max_bottom_m) return false;
@@ -225,7 +92,7 @@ class Search {
   }
 
   // The room that half of it or more stands in.
-  [[nodiscard]] RoomId RoomOf(const Candidate& c) const {
+  [[nodiscard]] RoomId RoomOf(const WallCandidate& c) const {
     const double z = 0.5 * (c.panel.z_min_m + c.panel.z_max_m);
     for (size_t r = 0; r < plan_.rooms.size(); ++r) {
       const Room& room = plan_.rooms[r];
@@ -237,7 +104,7 @@ class Search {
   }
 
   template <class F>
-  static double Share(const Candidate& c, F&& holds) {
+  static double Share(const WallCandidate& c, F&& holds) {
     int yes = 0, all = 0;
     for (double u = 0.5 * kSample_m; u < c.panel.length_m; u += kSample_m) {
       yes += holds(Eigen::Vector2d(c.panel.start + u * c.panel.along)) ? 1 : 0;
@@ -247,7 +114,7 @@ class Search {
   }
 
   // Below the lowest ceiling seen over it; by the plan's, a suspended ceiling would hide that a wall is one.
-  [[nodiscard]] double RequiredTop(const Candidate& c, double floor_m) const {
+  [[nodiscard]] double RequiredTop(const WallCandidate& c, double floor_m) const {
     const Eigen::Vector2d middle = c.panel.start + 0.5 * c.panel.length_m * c.panel.along;
     const Eigen::Vector3d at = T_plan_map_.inverse() * Eigen::Vector3d(middle.x(), middle.y(), floor_m);
     double top_m = floor_m + options_.min_height_m;
@@ -264,7 +131,7 @@ class Search {
   }
 
   // Share of its length at which the plan has something parallel within `gate_m`.
-  [[nodiscard]] double PlannedShare(const Candidate& c, double gate_m) const {
+  [[nodiscard]] double PlannedShare(const WallCandidate& c, double gate_m) const {
     const double z = 0.5 * (c.panel.z_min_m + c.panel.z_max_m);
     const auto meets = [&](const Eigen::Vector2d& p, double side) {
       Ray ray;
@@ -279,13 +146,13 @@ class Search {
 
   void CountSights() {
     std::vector<Panel> panels;
-    for (const Candidate& c : faces_) panels.push_back(c.panel);
+    for (const WallCandidate& c : faces_) panels.push_back(c.panel);
     PanelGrid grid(panels, 0.5);
     std::vector<uint32_t> near;
     ForEachSight(map_, T_plan_map_, [&](const Sight& sight) {
       grid.Near(sight.from.head<2>(), sight.to.head<2>(), near);
       for (const uint32_t i : near) {
-        Candidate& c = faces_[i];
+        WallCandidate& c = faces_[i];
         Meeting m;
         if (!Meet(c.panel, sight, &m) || m.from_m < kOn_m || m.to_m > kOn_m || c.panel.W(sight.from.head<2>()) < 0) continue;
         if (m.u < kEdge_m || m.u > c.panel.length_m - kEdge_m) continue;
@@ -320,23 +187,23 @@ class Search {
     return best;
   }
 
-  [[nodiscard]] bool IsWall(const Candidate& front, const Candidate* back) const {
+  [[nodiscard]] bool IsWall(const WallCandidate& front, const WallCandidate* back) const {
     // Beside a planned wall only what has two faces is another wall; else it is the front of something, or the planned wall itself.
     if (!back && PlannedShare(front, options_.wall_gate_m) >= kMaxExplained) return false;
     Panel middle = front.panel;
     if (back) middle.start += 0.5 * front.panel.W(back->panel.start + 0.5 * back->panel.length_m * back->panel.along) * front.panel.normal;
     if (planned_.MayBeUnmatchedOne(middle, options_.wall_gate_m)) return false;
-    const auto as_high_as_walls = [&](const Candidate& c) { return LengthAbove(c, c.required_top_m) >= std::max(options_.min_length_m, 0.5 * c.panel.length_m); };
+    const auto as_high_as_walls = [&](const WallCandidate& c) { return LengthAbove(c, c.required_top_m) >= std::max(options_.min_length_m, 0.5 * c.panel.length_m); };
     if (as_high_as_walls(front) || (back && as_high_as_walls(*back))) return true;
     if (!back) return false;
     const double seen_m = plan_.rooms[front.room.index()].floor_z_m + options_.min_seen_height_m;
-    const auto seen_high = [&](const Candidate& c) { return LengthAbove(c, seen_m) >= std::max(options_.min_length_m, 0.5 * c.panel.length_m); };
-    const auto seen_over = [&](const Candidate& c) { return static_cast<double>(c.over) > kMaxOver * static_cast<double>(c.ended); };
+    const auto seen_high = [&](const WallCandidate& c) { return LengthAbove(c, seen_m) >= std::max(options_.min_length_m, 0.5 * c.panel.length_m); };
+    const auto seen_over = [&](const WallCandidate& c) { return static_cast<double>(c.over) > kMaxOver * static_cast<double>(c.ended); };
     const double thickness_m = -front.panel.W(back->panel.start + 0.5 * back->panel.length_m * back->panel.along);
     return thickness_m <= options_.max_thin_m && (seen_high(front) || seen_high(*back)) && !seen_over(front) && !seen_over(*back);
   }
 
-  [[nodiscard]] UnplannedWall WallOf(const Candidate& front, const Candidate* back) const {
+  [[nodiscard]] UnplannedWall WallOf(const WallCandidate& front, const WallCandidate* back) const {
     double from = 0, to = front.panel.length_m, depth_m = options_.single_thickness_m, top_m = front.panel.z_max_m;
     if (back) {
       const Eigen::Vector2d end = back->panel.start + back->panel.length_m * back->panel.along;
@@ -357,7 +224,7 @@ class Search {
   const RayCaster caster_;
   StandingWalls standing_;
   const PlannedWalls planned_;
-  std::vector<Candidate> faces_;
+  std::vector<WallCandidate> faces_;
 };
 
 }  // namespace

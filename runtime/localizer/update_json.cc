@@ -2,18 +2,13 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "runtime/deviations/deviations_keys.h"
 #include "runtime/localizer/estimate_update.h"
-#include "runtime/numerics/rounded.h"
 
 namespace plumb::runtime {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 constexpr double kNews_m = 0.001, kNews_rad = 0.1 * std::numbers::pi / 180, kNewsProbability = 0.01;
-
-double Metres(double v) { return Rounded(v, 1e5); }
-double Degrees(double rad) { return Rounded(rad * 180 / std::numbers::pi, 1e4); }
 
 bool IsNews(const SurfaceDeviation& now, const SurfaceDeviation& told) {
   return now.status != told.status || std::abs(now.translation_m - told.translation_m) >= kNews_m ||
@@ -24,12 +19,7 @@ bool IsNews(const SurfaceDeviation& now, const SurfaceDeviation& told) {
 Json SurfaceEntry(const SurfaceDeviation& d) {
   Json out;
   out["id"] = d.surface.value;
-  out["status"] = StatusName(d.status);
-  out["translation_m"] = Metres(d.translation_m);
-  out["sigma_translation_m"] = Metres(d.sigma_translation_m);
-  out["rotation_deg"] = Degrees(d.rotation_rad);
-  out["sigma_rotation_deg"] = Degrees(d.sigma_rotation_rad);
-  out["p_deviated"] = Rounded(d.p_deviated, 1e6);
+  PutEstimate(d, out);
   return out;
 }
 

@@ -37,9 +37,10 @@ struct MatcherOptions {
   double accept_min_consistent_ratio = 0.4;
   double accept_max_through_ratio = 0.02;     // of the rays: may pass through walls of the plan
   int ample_more_planes = 2;                  // this many more agree than are asked for: then vouch_max_through_ratio of the rays may
-  // The building's size against the plan's: the walls tell it to within this with two sigmas, or the rays prefer the plan to one that is larger
-  // or smaller by as much, by vouch_lead_nats.
+  // The building's size against the plan's: the walls tell it to within this with two sigmas and no farther from the plan's than so many, or
+  // the rays prefer the plan to one that is larger or smaller by as much, by vouch_lead_nats.
   double accept_scale_error = 0.025;
+  double accept_scale_sigmas = 1.5;
   // Rays vouch for a place that far fewer walls would not: in furnished or much deviating buildings. They do where this share of them ends on
   // what the plan has there, and the place leads every rival, the plan's mirror image and "outside" by this many nats, and by this much of its
   // own log-likelihood unless nearly all rays end where they should. Furniture in the way of a planar laser, where half of

@@ -51,7 +51,7 @@ struct RayVerdict {
   bool vouch = false, stands_alone = false;  // RaysVouch(), StandsAlone()
 };
 
-// Whether the walls tell the building's size to within accept_scale_error.
+// Whether the walls tell the building's size to within accept_scale_error, and that it is the plan's.
 [[nodiscard]] bool WallsTellScale(const WallFit& fit, const MatcherOptions& options);
 
 // Why this pose alone, rivals aside, is not yet trusted; empty if it is. `scaled`: see WrongPlans.

@@ -90,33 +90,56 @@ struct LinearSystem {
   Vector12d g;
 };
 
-// The prior's information matrices.
-struct PriorInformation {
-  explicit PriorInformation(const SweepPrior& prior) : free(Inverse(prior.covariance)), level(prior.level_covariance ? Inverse(*prior.level_covariance) : free) {}
-  static Matrix12d Inverse(const Matrix12d& covariance) { return covariance.llt().solve(Matrix12d::Identity()); }
-  [[nodiscard]] const Matrix12d& For(const NormalEquations& sum, double level_ratio) const { return sum.A[0](5, 5) < level_ratio * sum.weight ? level : free; }
+// A prior as the normal equations take it.
+struct PriorTerm {
+  explicit PriorTerm(const SweepGaussian& prior) : mean(prior.mean), information(prior.covariance.llt().solve(Matrix12d::Identity())) {}
 
-  Matrix12d free, level;
+  SweepMotion mean;
+  Matrix12d information;
 };
 
-LinearSystem WithPrior(const NormalEquations& sum, const SweepMotion& motion, const SweepPrior& prior, const PriorInformation& information,
-                       const RegistrationOptions& options) {
-  const Matrix12d& prior_information = information.For(sum, options.level_ratio);
-  const Matrix6d P = HeldDirections(sum, options.degenerate_ratio);
+LinearSystem WithPrior(const NormalEquations& sum, const Matrix6d& held, const SweepMotion& motion, const PriorTerm& prior, const RegistrationOptions& options) {
   const double share = 1 / options.points_per_independent;
   LinearSystem system;
-  const Matrix6d mixed = share * P.transpose() * sum.A[1] * P;
-  system.H << share * P.transpose() * sum.A[0] * P, mixed, mixed, share * P.transpose() * sum.A[2] * P;
-  system.g << share * P.transpose() * sum.g[0], share * P.transpose() * sum.g[1];
+  const Matrix6d mixed = share * held.transpose() * sum.A[1] * held;
+  system.H << share * held.transpose() * sum.A[0] * held, mixed, mixed, share * held.transpose() * sum.A[2] * held;
+  system.g << share * held.transpose() * sum.g[0], share * held.transpose() * sum.g[1];
   const Vector6d start = Difference(motion.T_start, prior.mean.T_start);
   Vector12d off;
   off << start, Difference(motion.T_end, prior.mean.T_end) - start;
-  system.H += prior_information;
-  system.g += prior_information * off;
+  system.H += prior.information;
+  system.g += prior.information * off;
   return system;
 }
 
+// Both priors, of which one counts.
+class Priors {
+ public:
+  explicit Priors(const SweepPrior& prior) : free_(prior), up_(prior.up) {
+    if (prior.level) level_.emplace(*prior.level);
+  }
+
+  [[nodiscard]] LinearSystem Join(const NormalEquations& sum, const SweepMotion& motion, const RegistrationOptions& options) const {
+    const Eigen::Matrix3d by_planes = sum.A[0].bottomRightCorner<3, 3>();
+    const bool level = level_ && up_.dot(by_planes * up_) < options.level_ratio * sum.weight;
+    return WithPrior(sum, HeldDirections(sum, options.degenerate_ratio), motion, level ? *level_ : free_, options);
+  }
+
+ private:
+  PriorTerm free_;
+  std::optional<PriorTerm> level_;
+  Eigen::Vector3d up_;
+};
+
 }  // namespace
+
+void SweepPrior::MoveTo(const SweepMotion& motion) {
+  mean = motion;
+  if (!level) return;
+  const double height_m = up.dot(level->mean.T_start.translation());
+  level->mean = motion;
+  for (Eigen::Isometry3d* T : {&level->mean.T_start, &level->mean.T_end}) T->translation() += (height_m - up.dot(T->translation())) * up;
+}
 
 PointToPlane EvaluatePointToPlane(const Eigen::Vector3d& q, const Eigen::Vector3d& normal, const Eigen::Vector3d& mean,
                                   const Eigen::Vector3d& center) {
@@ -138,14 +161,14 @@ RegistrationResult RegisterSweep(std::span<const SweepPoint> points, bool timed,
                                  const RegistrationOptions& options) {
   RegistrationResult result;
   result.motion = prior.mean;
-  const PriorInformation prior_information(prior);
+  const Priors priors(prior);
   const double final_kernel_m = kInlierSigmas * options.range_sigma_m;
   double kernel_m = std::max(options.initial_kernel_m, final_kernel_m);
   for (; result.iterations < options.max_iterations; ++result.iterations) {
     const bool coarse = kernel_m > 4 * final_kernel_m;
     const NormalEquations sum =
         Accumulate(points, map, result.motion, kernel_m, options.search_neighbours && coarse, options.range_sigma_m);
-    const LinearSystem system = WithPrior(sum, result.motion, prior, prior_information, options);
+    const LinearSystem system = priors.Join(sum, result.motion, options);
     const Vector12d step = system.H.ldlt().solve(-system.g);
     if (!step.allFinite()) return result;
     const Eigen::Vector3d center = result.motion.T_start.translation();
@@ -158,7 +181,7 @@ RegistrationResult RegisterSweep(std::span<const SweepPoint> points, bool timed,
     kernel_m = std::max(final_kernel_m, 0.5 * kernel_m);
   }
   const NormalEquations last = Accumulate(points, map, result.motion, final_kernel_m, false, options.range_sigma_m);
-  result.covariance = WithPrior(last, result.motion, prior, prior_information, options).H.ldlt().solve(Matrix12d::Identity());
+  result.covariance = priors.Join(last, result.motion, options).H.ldlt().solve(Matrix12d::Identity());
   result.num_inliers = last.num_inliers;
   result.inlier_ratio = last.num_matched > 0 ? static_cast<double>(last.num_inliers) / last.num_matched : 0;
   result.overlap_ratio = points.empty() ? 0 : static_cast<double>(last.num_matched) / static_cast<double>(points.size());

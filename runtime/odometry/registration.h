@@ -21,11 +21,18 @@ using Vector12d = Eigen::Matrix<double, 12, 1>;
 using Matrix12d = Eigen::Matrix<double, 12, 12>;
 
 // Gaussian on the increments (d, e) about `mean`: of the pose at the start and of the motion during the sweep.
-struct SweepPrior {
+struct SweepGaussian {
   SweepMotion mean;
   Matrix12d covariance = Matrix12d::Identity();
-  // Instead of it, where the planes say next to nothing of z: up and down hardly anything moves by itself.
-  std::optional<Matrix12d> level_covariance;
+};
+
+struct SweepPrior : SweepGaussian {
+  // Of a robot that stays at its height along `up`: counts instead where the planes say little of the height.
+  std::optional<SweepGaussian> level;
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+
+  // Expects `motion` instead; level motion at the height that it has.
+  void MoveTo(const SweepMotion& motion);
 };
 
 struct RegistrationOptions {
@@ -35,7 +42,7 @@ struct RegistrationOptions {
   // A direction is the prior's alone if its share of the planes' information is below this, or below what the noise of their normals makes
   // up: along a smooth corridor, normals that err by 1 degree seem to say where the robot is.
   double degenerate_ratio = 3e-4;
-  double level_ratio = 0.02;            // SweepPrior::level_covariance counts where z has less than this share of the planes' information
+  double level_ratio = 0.02;            // SweepPrior::level counts where the height along `up` has less than this share of the planes' information
   double initial_kernel_m = 0.3;        // of the first iteration; halves down to three sigma
   bool search_neighbours = false;       // first iterations also look into neighbouring voxels: for large prediction errors
 };

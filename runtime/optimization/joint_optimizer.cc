@@ -198,14 +198,26 @@ class Optimizer {
     return e;
   }
 
+  // Of the points of a match's patch, those that say something of its wall.
+  [[nodiscard]] double ShareThatCounts(const Match& m) const {
+    const std::vector<Observation>& observations = map_.surfaces[m.map_surface].observations;
+    double counts = 0, all = 0;
+    for (size_t i = 0; i < observations.size(); ++i) {
+      all += observations[i].stats.count();
+      if (!m.IsMistaken(i)) counts += observations[i].stats.count();
+    }
+    return all > 0 ? counts / all : 0;
+  }
+
   void CountSeen(std::vector<WallEstimate>& walls) const {
     std::map<SurfaceId, SeenSurface> seen;
     for (const Match& m : matches_) {
       if (!m.plan_surface.valid()) continue;
       SeenSurface& s = seen[m.plan_surface];
       s.surface = m.plan_surface;
-      s.num_points += map_.surfaces[m.map_surface].num_points;
-      s.observed_m2 += map_.surfaces[m.map_surface].area_m2;
+      const double share = m.mistaken.empty() ? 1.0 : ShareThatCounts(m);
+      s.num_points += share * map_.surfaces[m.map_surface].num_points;
+      s.observed_m2 += share * map_.surfaces[m.map_surface].area_m2;
     }
     for (const auto& [id, s] : seen) {
       const WallId wall = plan_.surfaces[id.index()].wall;
@@ -220,8 +232,8 @@ class Optimizer {
     std::string text = GaugeRule(options_.mode) + std::string(".");
     for (const DirectionSupport& d : result.directions) {
       if (!d.ambiguous()) continue;
-      text += fmt::format(" Along {:.0f} deg the frame is ambiguous: {} wall(s) agree with it, {} with another.",
-                          d.axis_rad * 180 / std::numbers::pi, d.consistent, d.next_cluster);
+      text += fmt::format(" Along {:.0f} deg the frame is ambiguous: {} {} with it, {} with another.",
+                          d.axis_rad * 180 / std::numbers::pi, d.consistent, d.consistent == 1 ? "wall agrees" : "walls agree", d.next_cluster);
     }
     return text;
   }

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "runtime/matching/ray_caster.h"
+#include "tools/simulate/missing_floors.h"
 #include "tools/simulate/open_doors.h"
 #include "tools/simulate/random.h"
 
@@ -65,11 +66,12 @@ double LeakShare(const AGraph& house, const FreeSpace& space, const Reach& reach
 class Builder {
  public:
   Builder(const AGraph& plan, StoreyId storey, const SimulateOptions& options)
-      : plan_(plan), open_(WithInnerDoorsOpen(plan)), storey_(storey), options_(options), bodies_(FindWallBodies(plan)),
+      : plan_(plan), storey_(storey), options_(options), bodies_(FindWallBodies(plan)),
         random_(options.seed, static_cast<uint64_t>(RandomStream::kDeviations)) {
-    built_.house = open_;
     built_.motions.assign(plan.walls.size(), Eigen::Isometry2d::Identity());
     built_.passages = Passages(plan, storey, built_.motions);
+    open_ = WithFloorsAndCeilings(WithInnerDoorsOpen(plan), storey, built_.passages);
+    built_.house = open_;
   }
 
   Expected<AsBuilt> Run() {
@@ -201,7 +203,7 @@ class Builder {
   }
 
   const AGraph& plan_;
-  const AGraph open_;
+  AGraph open_;
   const StoreyId storey_;
   const SimulateOptions& options_;
   const std::vector<WallBody> bodies_;

@@ -264,6 +264,95 @@ TEST(MatchSurfaces, PatchesOfATurnedWallStayTogether) {
   for (uint32_t patch : {a, b, c}) EXPECT_EQ(scene.Of(house, patch), SurfaceId(9));
 }
 
+TEST(MatchSurfaces, FindsAWallFarOffWhereItsPlannedPlaceIsSeenThrough) {
+  const AGraph house = test::MakeHouse();
+  for (const double yaw_deg : {0.0, 27.0}) {
+    const auto at = [&](double y) { return Eigen::Vector2d(yaw_deg == 0 ? 9.58 : 9.3 - std::tan(yaw_deg * kDeg) * (y - 3), y); };
+    const Eigen::Vector2d start = at(yaw_deg == 0 ? 0.2 : 1.6), end = at(yaw_deg == 0 ? 5.8 : 4.4);
+    Scene scene;
+    const uint32_t patch = scene.Add(start, end, 0.1, 2.5);
+    scene.map.surfaces[patch].observations.push_back(scene.map.surfaces[patch].observations.front());
+    EXPECT_FALSE(scene.Of(house, patch).valid()) << "nothing proves that the wall is not where planned";
+    scene.See({6, 3, 0.6}, start, end, 0.1, 2.5);
+    scene.See({6.5, 2, 0.6}, start, end, 0.1, 2.5);
+    EXPECT_EQ(scene.Of(house, patch), SurfaceId(9)) << yaw_deg << " deg";
+  }
+}
+
+TEST(MatchSurfaces, FindsNoWallFarOffWhereTwoStandForIt) {
+  const AGraph house = test::MakeHouse();
+  Scene scene;
+  const uint32_t nearer = scene.Add({9.54, 0.2}, {9.54, 2.7}, 0.1, 2.5), farther = scene.Add({9.62, 3.0}, {9.10, 4.0}, 0.1, 2.5);
+  for (const uint32_t patch : {nearer, farther}) {
+    MapSurface& s = scene.map.surfaces[patch];
+    s.observations.push_back(s.observations.front());
+    scene.See({6, 3, 0.6}, s.start, s.end, 0.1, 2.5);
+  }
+  EXPECT_TRUE(scene.Of(house, nearer).valid());  // as it is the longer
+  EXPECT_FALSE(scene.Of(house, farther).valid());
+}
+
+TEST(MatchSurfaces, PiecesThatAreTurnedAgainstTheWallAreNotOfIt) {
+  const AGraph house = test::MakeHouse();
+  Scene scene;
+  const uint32_t wall = scene.Add({9, 1.2}, {9, 3.5});
+  const Eigen::Vector2d turned(-std::sin(14 * kDeg), std::cos(14 * kDeg));
+  const Eigen::Vector2d middle(9, 4.5);
+  const uint32_t box = scene.Add(middle - 0.45 * turned, middle + 0.45 * turned, 0.2, 1.2);
+  EXPECT_EQ(scene.Of(house, wall), SurfaceId(9));
+  EXPECT_FALSE(scene.Of(house, box).valid());
+}
+
+TEST(MatchSurfaces, ASkirtingIsNotTheWallBehindIt) {
+  AGraph house = test::MakeHouse();
+  house.surfaces[9].z_max_m = 0.25;
+  Scene behind, on;
+  const uint32_t far = behind.Add({9.1, 1}, {9.1, 5}, 0.0, 2.5), near = on.Add({9, 1}, {9, 5}, 0.0, 2.5);
+  EXPECT_FALSE(behind.Of(house, far).valid());
+  EXPECT_EQ(on.Of(house, near), SurfaceId(9));
+}
+
+TEST(MatchSurfaces, AWallThatRoomsDivideIntoManyFacesIsOneWhenItIsOff) {
+  AGraph house = test::MakeHouse();
+  const Surface whole = house.surfaces[9];
+  const WallId wall = whole.wall;
+  const Eigen::Vector2d part = 0.25 * (whole.end - whole.start);
+  house.surfaces[9].end = whole.start + part;
+  for (int k = 1; k < 4; ++k) {
+    house.surfaces.push_back(whole);
+    house.surfaces.back().start = whole.start + k * part;
+    house.surfaces.back().end = house.surfaces.back().start + part;
+  }
+  Scene scene;
+  const uint32_t patch = scene.Add({8.8, whole.start.y()}, {8.8, whole.end.y()}, 0.0, 2.5);
+  const SurfaceId found = scene.Of(house, patch);
+  ASSERT_TRUE(found.valid());
+  EXPECT_EQ(house.surfaces[found.index()].wall, wall);
+}
+
+TEST(MatchSurfaces, APatchAlongTwoWallsIsOfBoth) {
+  AGraph house = test::MakeHouse();
+  house.walls.push_back(house.walls[house.surfaces[8].wall.index()]);  // room C's part of the south wall is a wall of its own, planned 0.2 m further in
+  house.surfaces[8].wall = WallId(house.walls.size() - 1);
+  house.surfaces[8].start.y() = house.surfaces[8].end.y() = 0.2;
+  house.surfaces[8].d_m = -0.2;
+  Scene scene;
+  const uint32_t patch = scene.Add({0.2, 0}, {8.8, 0});
+  std::vector<Observation>& views = scene.map.surfaces[patch].observations;
+  views.assign(2, {});
+  for (const double z_m : {0.2, 2.0}) {
+    for (const double x : {0.2, 4.6}) views[0].stats.Add({x, 0, z_m});
+    for (const double x : {5.4, 8.8}) views[1].stats.Add({x, 0, z_m});
+  }
+  const auto matches = MatchSurfaces(scene.map, house, Eigen::Isometry3d::Identity(), {});
+  ASSERT_EQ(matches.size(), 2u);
+  EXPECT_EQ(matches[0].plan_surface, SurfaceId(0));
+  EXPECT_EQ(matches[0].mistaken, std::vector<uint32_t>{1});
+  EXPECT_EQ(matches[1].plan_surface, SurfaceId(8));
+  EXPECT_EQ(matches[1].mistaken, std::vector<uint32_t>{0});
+  EXPECT_NEAR(matches[1].offset_m, -0.2, 1e-9);
+}
+
 TEST(MatchLevels, FloorGoesToTheRoomItLiesIn) {
   const AGraph house = test::MakeHouse();
   EXPECT_TRUE(Contains(house.rooms[0], {1, 1}));

@@ -84,20 +84,26 @@ TEST(AssessDeviations, FacesCarryTheWallsMotionAlongTheirOwnNormals) {
   EXPECT_NEAR(report.rooms[2].translation_m.x(), 0.1 * sign, 0.02);
 }
 
-TEST(AssessDeviations, HardlySeenWallsAreUnobserved) {
-  const AGraph house = test::MakeHouse();
+// Of the house's east wall alone.
+JointResult EstimateOfEastWall(const AGraph& house, const WallDeviation& deviation, const Eigen::Matrix2d& evidence, double observed_m2) {
   JointResult estimate;
   estimate.covariances_exact = true;
   WallEstimate w;
   w.wall = WallId(kEast);
   w.reference = WallFrames(house)[kEast].reference;
-  w.deviation = {0.3, 0};
-  w.cov = Eigen::Matrix2d::Identity() * 1e-6;
-  w.evidence = {{0.3, 0}, w.cov};
+  w.deviation = deviation;
   w.cov_all = Eigen::Matrix4d::Identity() * 1e-6;
-  w.p_deviated = 1;
-  w.observed_m2 = 0.2;
+  w.cov = w.cov_all.topLeftCorner<2, 2>();
+  w.evidence = {{deviation.offset_m, deviation.yaw_rad}, evidence};
+  w.p_deviated = deviation.offset_m == 0 ? 0 : 1;
+  w.observed_m2 = observed_m2;
   estimate.walls.push_back(w);
+  return estimate;
+}
+
+TEST(AssessDeviations, HardlySeenWallsAreUnobserved) {
+  const AGraph house = test::MakeHouse();
+  JointResult estimate = EstimateOfEastWall(house, {0.3, 0}, Eigen::Matrix2d::Identity() * 1e-6, 0.2);
   const DeviationReport report = AssessDeviations(house, estimate);
   for (const SurfaceDeviation& d : report.surfaces) EXPECT_EQ(d.status, SurfaceStatus::kUnobserved);
   estimate.walls[0].observed_m2 = 3;
@@ -109,16 +115,7 @@ TEST(AssessDeviations, HardlySeenWallsAreUnobserved) {
 
 TEST(AssessDeviations, WhatCouldNotHaveBeenFoundIsUnobservedAndNotAsPlanned) {
   const AGraph house = test::MakeHouse();
-  JointResult estimate;
-  estimate.covariances_exact = true;
-  WallEstimate w;
-  w.wall = WallId(kEast);
-  w.reference = WallFrames(house)[kEast].reference;
-  w.cov_all = Eigen::Matrix4d::Identity() * 1e-6;
-  w.cov = w.cov_all.topLeftCorner<2, 2>();
-  w.evidence.covariance = Eigen::Vector2d(0.01 * 0.01, 1e-6).asDiagonal();
-  w.observed_m2 = 30;
-  estimate.walls.push_back(w);
+  JointResult estimate = EstimateOfEastWall(house, {}, Eigen::Vector2d(0.01 * 0.01, 1e-6).asDiagonal(), 30);
   const SurfaceDeviation sharp = AssessDeviations(house, estimate).surfaces[9];
   EXPECT_EQ(sharp.status, SurfaceStatus::kAsPlanned);
   EXPECT_NEAR(sharp.mdb_m, std::sqrt(17.1) * std::hypot(0.01, 0.005), 1e-3);
@@ -128,6 +125,14 @@ TEST(AssessDeviations, WhatCouldNotHaveBeenFoundIsUnobservedAndNotAsPlanned) {
   EXPECT_NEAR(blurred.mdb_m, 0.33, 0.01);
   estimate.walls[0].evidence.covariance(0, 0) = 0.01 * 0.01;  // sharp, but the plan may as well lie 0.3 m further on
   estimate.walls[0].place_sigma_m = 0.2;
+  EXPECT_EQ(AssessDeviations(house, estimate).surfaces[9].status, SurfaceStatus::kUnobserved);
+}
+
+TEST(AssessDeviations, WhatTheDataLeaveFarOffIsUnobservedHoweverUnlikelyBeforehand) {
+  const AGraph house = test::MakeHouse();
+  JointResult estimate = EstimateOfEastWall(house, {}, Eigen::Vector2d(0.026 * 0.026, 1e-6).asDiagonal(), 60);
+  EXPECT_EQ(AssessDeviations(house, estimate).surfaces[9].status, SurfaceStatus::kAsPlanned);
+  estimate.walls[0].evidence.measured = {-0.055, 0};
   EXPECT_EQ(AssessDeviations(house, estimate).surfaces[9].status, SurfaceStatus::kUnobserved);
 }
 

@@ -110,6 +110,18 @@ TEST(Decide, APlanOfAnotherScaleIsNeverTheBuildings) {
   EXPECT_NE(result.reason.find("scale"), std::string::npos) << result.reason;
 }
 
+TEST(WallsTellScale, OnlyWhereTheyAgreeWithThePlansToo) {
+  const MatcherOptions options;
+  WallFit fit;
+  fit.sigma_scale = 0.0044;
+  fit.scale_error = 0.003;
+  EXPECT_TRUE(WallsTellScale(fit, options));
+  fit.scale_error = -0.0089;  // of a plan 3 % too large, whose farther walls pass for deviated ones
+  EXPECT_FALSE(WallsTellScale(fit, options));
+  fit.sigma_scale = 0.02;
+  EXPECT_FALSE(WallsTellScale(fit, options));
+}
+
 TEST(RaysVouch, OnlyFarAheadOfTheRivalAndTheMirrorImage) {
   const MatcherOptions options;
   EXPECT_TRUE(RaysVouch({Good(100), Good(20, 5)}, 0, false, options));

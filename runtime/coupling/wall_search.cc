@@ -1,0 +1,118 @@
+#include "runtime/coupling/wall_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+namespace plumb::runtime {
+namespace {
+
+constexpr double kMinArea_m2 = 1.0;
+constexpr size_t kMinObservations = 2;
+constexpr double kMinLength_m = 1.0, kMinOverlapRatio = 0.5;
+constexpr double kMinExplained = 0.5;     // of the patch, by the face
+constexpr double kMinReach_m = 1.4;       // above the face's foot: most furniture that stands alone is lower
+constexpr size_t kMinLines = 20;          // that end on it, and that go through the planned place
+constexpr double kMinPassedRatio = 0.6;   // of those that meet the planned place
+constexpr double kBelowTop_m = 0.3;       // furniture up to a ceiling leaves this much
+constexpr double kMinClosed = 0.9;        // of the face's length, if the planned place cannot be seen
+constexpr double kRivalNats = 3;          // a candidate that is better by less is no better
+constexpr double kSameOffset_m = 0.15, kSameYaw_rad = 0.1;  // one wall's two faces tell the same to this
+
+struct Found {
+  size_t patch;
+  FarWall wall;
+  double cost_nats;
+};
+
+// How the wall would stand if its face were in the patch's plane.
+WallDeviation DeviationOf(const Patch& patch, const Face& face, double yaw_rad) {
+  const Eigen::Rotation2Dd turn(yaw_rad);
+  const Eigen::Vector2d pivot = face.pivot.head<2>(), n = patch.normal.head<2>().normalized(), wall_normal = face.wall_normal.head<2>();
+  const Eigen::Vector2d turned = pivot + turn * (face.point.head<2>() - pivot);
+  return {n.dot(patch.midpoint() - turned) / n.dot(wall_normal), yaw_rad};
+}
+
+class Search {
+ public:
+  Search(const std::vector<WallFrame>& frames, const std::vector<std::vector<WallOpening>>& openings, const SightLines& sight, const CouplingOptions& options)
+      : frames_(frames), openings_(openings), sight_(sight), options_(options) {}
+
+  [[nodiscard]] std::optional<Found> Compare(size_t index, const Patch& patch, const Surface& surface) const {
+    if (patch.num_observations < kMinObservations || patch.area < kMinArea_m2 || patch.z_max < surface.z_min_m + kMinReach_m) return std::nullopt;
+    const Eigen::Vector3d& n = surface.normal;
+    const double yaw = std::atan2(n.x() * patch.normal.y() - n.y() * patch.normal.x(), n.head<2>().dot(patch.normal.head<2>()));
+    if (std::abs(yaw) > options_.far_yaw_rad) return std::nullopt;
+    if (OverlapRatio(patch.z_min, patch.z_max, surface.z_min_m, surface.z_max_m) < options_.min_height_overlap_ratio) return std::nullopt;
+    const Eigen::Vector2d along = (surface.end - surface.start).normalized();
+    const double a0 = along.dot(patch.start - surface.start), a1 = along.dot(patch.end - surface.start);
+    const double from = std::max(0.0, std::min(a0, a1)), to = std::min(surface.length_m(), std::max(a0, a1));
+    if (to - from < kMinLength_m || OverlapRatio(std::min(a0, a1), std::max(a0, a1), 0, surface.length_m()) < kMinOverlapRatio) return std::nullopt;
+    const double explained = ExplainedRatio(patch, surface);
+    if (explained < kMinExplained) return std::nullopt;
+    // Gated where the two overlap: at the wall's far end a turn adds to it.
+    const double middle = 0.5 * (from + to);
+    const Eigen::Vector2d on_patch = patch.start + (middle - a0) / (a1 - a0) * (patch.end - patch.start);
+    const double offset_m = n.head<2>().dot(on_patch - surface.start - middle * along);
+    const WallDeviation deviation = DeviationOf(patch, MakeFace(frames_[surface.wall.index()], surface), yaw);
+    if (std::abs(offset_m) > options_.far_offset_m || std::abs(deviation.offset_m) > options_.far_offset_m) return std::nullopt;
+    if (!IsProven(patch, surface, to - from)) return std::nullopt;
+    const double offset_sigmas = deviation.offset_m / options_.offset_tau1_m, yaw_sigmas = yaw / options_.yaw_tau1_rad;
+    return Found{index, {surface.wall, deviation}, 0.5 * (offset_sigmas * offset_sigmas + yaw_sigmas * yaw_sigmas) - std::log(explained)};
+  }
+
+ private:
+  [[nodiscard]] bool IsProven(const Patch& patch, const Surface& surface, double overlap_m) const {
+    const std::vector<WallOpening>& openings = openings_[surface.wall.index()];
+    if (IsSeenThrough(patch, surface, openings, sight_)) return false;
+    const SightLines::Count here = sight_.Meeting({patch.midpoint(), patch.normal.head<2>().normalized(), &surface, &openings});
+    if (here.ended < kMinLines) return false;
+    const SightLines::Count planned = sight_.Meeting({0.5 * (surface.start + surface.end), surface.normal.head<2>().normalized(), &surface, &openings});
+    if (planned.passed >= kMinLines && static_cast<double>(planned.passed) >= kMinPassedRatio * static_cast<double>(planned.passed + planned.ended)) return true;
+    const bool closes = overlap_m >= kMinClosed * surface.length_m() && patch.z_max >= surface.z_max_m - kBelowTop_m;
+    return closes && here.passed == 0 && planned.passed + planned.ended == 0;
+  }
+
+  const std::vector<WallFrame>& frames_;
+  const std::vector<std::vector<WallOpening>>& openings_;
+  const SightLines& sight_;
+  const CouplingOptions& options_;
+};
+
+bool IsSame(const WallDeviation& a, const WallDeviation& b) {
+  return std::abs(a.offset_m - b.offset_m) < kSameOffset_m && std::abs(a.yaw_rad - b.yaw_rad) < kSameYaw_rad;
+}
+
+// Could the patch as well be of another wall, or the wall stand elsewhere?
+bool HasRival(const Found& f, const std::vector<Found>& all) {
+  return std::any_of(all.begin(), all.end(), [&](const Found& g) {
+    if (g.cost_nats > f.cost_nats + kRivalNats) return false;
+    if (g.wall.wall == f.wall.wall) return !IsSame(g.wall.deviation, f.wall.deviation);
+    return g.patch == f.patch;
+  });
+}
+
+}  // namespace
+
+std::vector<FarWall> FindFarWalls(const AGraph& plan, const std::vector<WallFrame>& frames, const std::vector<Patch>& unmatched,
+                                  const std::vector<bool>& matched, const std::vector<std::vector<WallOpening>>& openings,
+                                  const SightLines& sight, const CouplingOptions& options) {
+  const Search search(frames, openings, sight, options);
+  std::vector<Found> found;
+  for (const Surface& surface : plan.surfaces) {
+    if (!surface.wall.valid() || matched[surface.wall.index()] || !IsFace(frames[surface.wall.index()], surface)) continue;
+    for (size_t i = 0; i < unmatched.size(); ++i) {
+      if (auto f = search.Compare(i, unmatched[i], surface)) found.push_back(*f);
+    }
+  }
+  std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.cost_nats < b.cost_nats; });
+  std::vector<FarWall> out;
+  for (const Found& f : found) {
+    const bool known = std::any_of(out.begin(), out.end(), [&](const FarWall& w) { return w.wall == f.wall.wall; });
+    if (!known && !HasRival(f, found)) out.push_back(f.wall);
+  }
+  std::sort(out.begin(), out.end(), [](const FarWall& a, const FarWall& b) { return a.wall < b.wall; });
+  return out;
+}
+
+}  // namespace plumb::runtime

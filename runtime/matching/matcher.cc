@@ -155,7 +155,6 @@ std::string MatcherOptions::Check() const {
     return bad("accept_min_consistent_ratio", accept_min_consistent_ratio, "in [0, 1]");
   }
   if (!(vouch_explained_ratio > 0)) return bad("vouch_explained_ratio", vouch_explained_ratio, "positive");
-  if (!(vouch_sure_nats >= vouch_lead_nats)) return bad("vouch_sure_nats", vouch_sure_nats, "at least vouch_lead_nats");
   if (!(vouch_lead_ratio > 0)) return bad("vouch_lead_ratio", vouch_lead_ratio, "positive");
   if (!(vouch_nearly_all_ratio > 0)) return bad("vouch_nearly_all_ratio", vouch_nearly_all_ratio, "positive");
   if (!(vouch_lead_nats > 0)) return bad("vouch_lead_nats", vouch_lead_nats, "positive");

@@ -202,7 +202,8 @@ MatchResult Matcher::Match(const SGraph& map, const StartHint& hint) const {
   const std::vector<Candidate> finalists = search.Finalists(view, hint);
   const AGraph& plan = search.plan.plan();
   WrongPlans wrong;
-  if (!finalists.empty() && !WallsTellScale(finalists.front().fit, search.options)) wrong.scaled = search.ScaledLikelihood(view, finalists.front());
+  if (!finalists.empty() && !WallsTellScale(finalists.front().fit, search.options))
+    wrong.scaled = search.ScaledLikelihood(view, finalists.front());
   result = Decide(finalists, view, plan, search.options, wrong);
   if (result.verdict != MatchResult::Verdict::kUnique) return result;
   wrong.mirrored = impl_->MirroredLikelihood(view, finalists.front().fit.pose);

@@ -106,7 +106,8 @@ std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, int 
   const bool rays_vouch = by_rays.vouch;
   const bool ample = rays_vouch || fit.consistent_planes >= required_planes + options.ample_more_planes;
   if (rays_vouch) {
-    const bool nearly_all = candidate.rays.explained_ratio >= options.vouch_nearly_all_ratio && candidate.rays.through_ratio <= options.accept_max_through_ratio;
+    const bool nearly_all = candidate.rays.explained_ratio >= options.vouch_nearly_all_ratio &&
+                            candidate.rays.through_ratio <= options.accept_max_through_ratio;
     required_planes = std::min(required_planes, options.vouch_min_planes - (nearly_all ? 1 : 0));
   }
   const double max_sigma_xy_m = rays_vouch ? options.vouch_sigma_xy_m : options.accept_sigma_xy_m;

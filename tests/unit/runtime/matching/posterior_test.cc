@@ -127,7 +127,8 @@ TEST(RaysVouch, OnlyFarAheadOfTheRivalAndTheMirrorImage) {
   EXPECT_TRUE(RaysVouch({Good(100), Good(20, 5)}, 0, false, options));
   EXPECT_FALSE(RaysVouch({Good(100), Good(80, 5)}, 0, false, options)) << "a rival is near";
   EXPECT_FALSE(RaysVouch({Good(100), Good(20, 5)}, 80, false, options)) << "the mirror image is near";
-  EXPECT_FALSE(RaysVouch({Good(300), Good(300 - 0.9 * options.vouch_lead_ratio * 300, 5)}, 0, false, options)) << "a small part of what both explain";
+  EXPECT_FALSE(RaysVouch({Good(300), Good(300 - 0.9 * options.vouch_lead_ratio * 300, 5)}, 0, false, options))
+      << "a small part of what both explain";
   Candidate nearly_all = Good(300);
   nearly_all.rays.explained_ratio = options.vouch_nearly_all_ratio;
   EXPECT_TRUE(RaysVouch({nearly_all, Good(300 - options.vouch_lead_nats, 5)}, 0, false, options));

@@ -65,7 +65,8 @@ std::vector<SurfaceStatus> WallStatuses(const JointResult& estimate, const Devia
     // A turn read off a short piece of a wall that may stand anywhere is no finding.
     const bool placed = testable || measured_m > two_sigma_m;
     const bool deviated = rejected[k] && large && w.p_deviated >= options.min_p_deviated && placed;
-    const bool tested = testable && measured_m + two_sigma_m <= options.max_undecided_m;
+    // Nor is a wall as planned whose evidence alone says that it is not.
+    const bool tested = testable && measured_m + two_sigma_m <= options.max_undecided_m && !(rejected[k] && large);
     statuses[observed[k]] = deviated ? SurfaceStatus::kDeviated : tested ? SurfaceStatus::kAsPlanned : SurfaceStatus::kUnobserved;
   }
   return statuses;
@@ -169,7 +170,7 @@ DeviationReport AssessDeviations(const AGraph& plan, const JointResult& estimate
     d.surface = SurfaceId(i);
     d.status = statuses[static_cast<size_t>(&wall - estimate.walls.data())];
     const size_t w = surface.wall.index();
-    if (d.status == SurfaceStatus::kDeviated && w < changes.shape_as_planned.size() && changes.shape_as_planned[w]) {
+    if (d.status == SurfaceStatus::kDeviated && w < changes.on_other_shape.size() && changes.on_other_shape[w]) {
       d.status = SurfaceStatus::kUnobserved;
     }
     for (const SeenSurface& seen : wall.seen) {

@@ -62,7 +62,7 @@ struct DeviationReport {
 struct WallChanges {
   std::vector<WallPresence> presence;  // per plan wall; empty: not judged
   std::vector<UnplannedWall> unplanned;
-  std::vector<bool> shape_as_planned = {};  // per plan wall (planned_shapes.h); empty: not judged
+  std::vector<bool> on_other_shape = {};  // per plan wall (planned_shapes.h); empty: not judged
   [[nodiscard]] bool IsMissing(WallId wall) const {
     return wall.valid() && wall.index() < presence.size() && presence[wall.index()].missing;
   }

@@ -11,9 +11,10 @@
 
 namespace plumb::runtime {
 
-// Per plan wall: most of what `matches` give it lies on triangles of the plan, all along. Walls that nothing was matched to: false.
+// Per plan wall: most of what `matches` give it lies on triangles of the plan, all along, and not on the wall's own face, from which it is at
+// least twice as far. Walls as planned, and those that nothing was matched to: false.
 // O(cells of the matched surfaces * log triangles).
-[[nodiscard]] std::vector<bool> ShapesAsPlanned(const SGraph& map, const AGraph& plan, const std::vector<Match>& matches,
+[[nodiscard]] std::vector<bool> LieOnOtherShapes(const SGraph& map, const AGraph& plan, const std::vector<Match>& matches,
                                                 const JointResult& estimate);
 
 }  // namespace plumb::runtime

@@ -168,7 +168,7 @@ struct GraphEstimator::Impl {
     const auto is_missing = [&](const WallEstimate& wall) { return changes.IsMissing(wall.wall); };
     if (std::any_of(joint.walls.begin(), joint.walls.end(), is_missing)) Optimize(true);
     changes.unplanned = FindUnplannedWalls(mapper.graph(), plan, matches, joint, options.deviations.unplanned);
-    changes.shape_as_planned = ShapesAsPlanned(mapper.graph(), plan, matches, joint);
+    changes.on_other_shape = LieOnOtherShapes(mapper.graph(), plan, matches, joint);
   }
 
   // Without a plan the map can at least be made consistent by itself.
@@ -296,7 +296,7 @@ struct GraphEstimator::Impl {
   [[nodiscard]] WallChanges ChangesSeen(const Solution& solution) const {
     return {JudgePresence(mapper.graph(), plan, solution.joint, options.deviations.presence),
             FindUnplannedWalls(mapper.graph(), plan, solution.matches, solution.joint, options.deviations.unplanned),
-            ShapesAsPlanned(mapper.graph(), plan, solution.matches, solution.joint)};
+            LieOnOtherShapes(mapper.graph(), plan, solution.matches, solution.joint)};
   }
 
   [[nodiscard]] DeviationReport Deviations(const JointResult& estimate, const WallChanges& seen) const {

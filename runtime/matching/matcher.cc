@@ -164,6 +164,7 @@ std::string MatcherOptions::Check() const {
   if (!(accept_max_through_ratio >= 0)) return bad("accept_max_through_ratio", accept_max_through_ratio, "at least 0");
   if (ample_more_planes < 0) return bad("ample_more_planes", ample_more_planes, "at least 0");
   if (!(accept_scale_error > 0)) return bad("accept_scale_error", accept_scale_error, "positive");
+  if (!(accept_scale_bias >= 0)) return bad("accept_scale_bias", accept_scale_bias, ">= 0");
   if (!(accept_scale_sigmas > 0)) return bad("accept_scale_sigmas", accept_scale_sigmas, "positive");
   return {};
 }

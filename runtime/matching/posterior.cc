@@ -97,7 +97,7 @@ bool StandsAlone(const std::vector<Candidate>& sorted, double mirrored, const Ma
 
 bool WallsTellScale(const WallFit& fit, const MatcherOptions& options) {
   return std::abs(fit.scale_error) + 2 * fit.sigma_scale <= options.accept_scale_error &&
-         std::abs(fit.scale_error) <= options.accept_scale_sigmas * fit.sigma_scale;
+         std::abs(fit.scale_error) <= std::max(options.accept_scale_sigmas * fit.sigma_scale, options.accept_scale_bias);
 }
 
 std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, int required_planes, const RayVerdict& by_rays,

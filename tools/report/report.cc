@@ -71,7 +71,7 @@ std::string Notes(const RunInfo& info, const Deviations& deviations) {
 // The try whose places are worth showing: the last one of a run that has no place.
 const TryRow* OpenTry(const Run& run) {
   const bool found = std::any_of(run.verdicts.begin(), run.verdicts.end(), [](const VerdictRow& v) { return v.verdict == "localized"; });
-  return found || run.tries.empty() ? nullptr : &run.tries.back();
+  return found || !run.smoothed.empty() || run.tries.empty() ? nullptr : &run.tries.back();
 }
 
 std::string Figure(const AGraph& plan, StoreyId storey, const Run& run, const std::vector<WallRow>& rows, double limit_m) {

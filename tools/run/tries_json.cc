@@ -71,7 +71,7 @@ HypothesisRow ParseHypothesis(const Json& json) {
   json.at("consistent_ratio").get_to(h.consistent_ratio);
   json.at("explained_ratio").get_to(h.explained_ratio);
   json.at("through_ratio").get_to(h.through_ratio);
-  json.at("in_front_ratio").get_to(h.in_front_ratio);
+  h.in_front_ratio = json.value("in_front_ratio", 0.0);  // older files have none
   return h;
 }
 

@@ -137,7 +137,7 @@ AGraph WithFloorsAndCeilings(AGraph house, StoreyId storey, const std::vector<Re
   if (2 * all.no_floor > all.places) {
     LevelBuilder floor(house, storey, "floor");
     for (const Coverage& c : rooms) {
-      if (2 * c.no_floor > c.places) floor.AddRoom(house.rooms[c.room], house.rooms[c.room].floor_z_m, true);
+      if (2 * c.no_floor >= c.places) floor.AddRoom(house.rooms[c.room], house.rooms[c.room].floor_z_m, true);
     }
     const double passage_z_m = MedianFloor(house, rooms);
     for (const Rectangle& passage : passages) floor.AddQuad(passage.Corners(), passage_z_m, true);
@@ -146,7 +146,7 @@ AGraph WithFloorsAndCeilings(AGraph house, StoreyId storey, const std::vector<Re
     LevelBuilder ceiling(house, storey, "ceiling");
     for (const Coverage& c : rooms) {
       const Room& room = house.rooms[c.room];
-      if (2 * c.no_ceiling > c.places && room.ceiling_z_m > room.floor_z_m + kMinHeadroom_m) ceiling.AddRoom(room, room.ceiling_z_m, false);
+      if (2 * c.no_ceiling >= c.places && room.ceiling_z_m > room.floor_z_m + kMinHeadroom_m) ceiling.AddRoom(room, room.ceiling_z_m, false);
     }
   }
   return house;

@@ -7,11 +7,13 @@
 namespace plumb::compiler {
 namespace {
 
-constexpr double kStep_rad = 0.05;  // along the sides
+constexpr double kStep_rad = 0.05;    // along the sides, ...
+constexpr double kMaxSagitta_m = 0.001;  // ... and of large circles so many more that a side is no farther off than this
 
 ArcBand BandOf(const Arc& arc, double half_m) {
   ArcBand out;
-  const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(arc.sweep_rad) / kStep_rad)));
+  const double step_rad = std::min(kStep_rad, std::sqrt(8 * kMaxSagitta_m / arc.radius_m));
+  const int steps = std::max(1, static_cast<int>(std::ceil(std::abs(arc.sweep_rad) / step_rad)));
   const auto append = [&](double radius_m, int i) {
     const double angle_rad = arc.start_rad + arc.sweep_rad * i / steps;
     out.outline.push_back(arc.center + radius_m * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad)));

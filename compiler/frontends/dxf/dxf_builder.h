@@ -34,6 +34,10 @@ class DxfBuilder : public DL_CreationAdapter {
 
   void Begin(DxfEntityHeader header) { header_ = std::move(header); }
   [[nodiscard]] bool full() const { return points_ > options_.max_points; }
+  // The entity begun last is left out.
+  void CountBad() {
+    if (bad_++ == 0) first_bad_ = header_;
+  }
   [[nodiscard]] size_t bad() const { return bad_; }
   [[nodiscard]] const DxfEntityHeader& first_bad() const { return first_bad_; }
 
@@ -95,9 +99,6 @@ class DxfBuilder : public DL_CreationAdapter {
 
   uint32_t LayerOf(const std::string& name);
 
-  void CountBad() {
-    if (bad_++ == 0) first_bad_ = header_;
-  }
 
   DxfEntity* NewEntity();
 

@@ -78,7 +78,7 @@ bool IsNeeded(int code, const std::string& type) {
 }
 
 // A line whose four numbers are plain. dxflib takes most of the time of a large drawing for turning texts into numbers, and most of such a
-// drawing is lines; of what is not plain it says what it is.
+// drawing is lines.
 std::optional<DL_LineData> PlainLine(const Groups& groups) {
   constexpr std::array<int, 4> kCodes = {10, 20, 11, 21};
   if (groups[0].value != "LINE") return std::nullopt;
@@ -94,6 +94,22 @@ std::optional<DL_LineData> PlainLine(const Groups& groups) {
   }
   if (!values[0] || !values[1] || !values[2] || !values[3]) return std::nullopt;
   return DL_LineData(*values[0], *values[1], 0, *values[2], *values[3], 0);
+}
+
+// Does a line lack one of its four numbers, or have a text for it? dxflib would read 0. Blanks and decimal commas are let pass.
+bool LacksNumbers(const Groups& groups) {
+  constexpr std::array<int, 4> kCodes = {10, 20, 11, 21};
+  if (groups[0].value != "LINE") return false;
+  return std::any_of(kCodes.begin(), kCodes.end(), [&](int code) {
+    const auto group = std::find_if(groups.begin(), groups.end(), [&](const DxfGroup& g) { return g.code == code; });
+    if (group == groups.end()) return true;
+    std::string text = group->value;
+    std::erase_if(text, [](char c) { return c == ' ' || c == '\t' || c == '+'; });
+    std::replace(text.begin(), text.end(), ',', '.');
+    double value = 0;
+    const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc::invalid_argument || stop != text.data() + text.size() || !std::isfinite(value);
+  });
 }
 
 // Lets a stream read a text in place.
@@ -170,6 +186,10 @@ class Feeder {
       if (std::exchange(pending_, false)) Feed(0, kNothing);
       builder_.Begin(HeaderOf(groups));
       builder_.addLine(*line);
+    } else if (LacksNumbers(groups)) {
+      if (std::exchange(pending_, false)) Feed(0, kNothing);
+      builder_.Begin(HeaderOf(groups));
+      builder_.CountBad();
     } else {
       MendCounts(groups);
       Feed(0, type);

@@ -133,7 +133,7 @@ Candidate2D Recalled(const MatchGraph& plan, const MatchGraph& map, const GraphM
   out.pose = known.pose;
   out.origin = MiddleOfRooms(map);
   for (const WallMatch& w : known.walls) {
-    const WallPair pair{WallWithId(plan, w.plan_wall), WallWithId(map, w.map_wall)};
+    const GraphWallPair pair{WallWithId(plan, w.plan_wall), WallWithId(map, w.map_wall)};
     if (w.deviated || w.orphan || pair.plan == plan.walls.size() || pair.map == map.walls.size()) continue;
     out.walls.push_back({pair, w.score});
   }

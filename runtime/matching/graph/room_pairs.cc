@@ -18,9 +18,9 @@ DensestCliqueOptions FewStarts() {
   return options;
 }
 
-double MeanYaw(const MatchGraph& plan, const MatchGraph& map, const std::vector<WallPair>& walls) {
+double MeanYaw(const MatchGraph& plan, const MatchGraph& map, const std::vector<GraphWallPair>& walls) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  for (const WallPair& w : walls) {
+  for (const GraphWallPair& w : walls) {
     const double yaw_rad = YawOf(plan.walls[w.plan], map.walls[w.map]);
     sum += Eigen::Vector2d(std::cos(yaw_rad), std::sin(yaw_rad));
   }
@@ -28,9 +28,9 @@ double MeanYaw(const MatchGraph& plan, const MatchGraph& map, const std::vector<
 }
 
 // Walls of two rooms that are about as far from the rooms' centres.
-std::vector<WallPair> PossibleWalls(const MatchGraph& plan, const GraphRoom& a, const MatchGraph& map, const GraphRoom& s,
+std::vector<GraphWallPair> PossibleWalls(const MatchGraph& plan, const GraphRoom& a, const MatchGraph& map, const GraphRoom& s,
                                     double epsilon_m) {
-  std::vector<WallPair> out;
+  std::vector<GraphWallPair> out;
   for (size_t i : a.walls) {
     const double plan_m = plan.walls[i].normal.dot(a.center) + plan.walls[i].d_m;
     for (size_t j : s.walls) {
@@ -42,17 +42,17 @@ std::vector<WallPair> PossibleWalls(const MatchGraph& plan, const GraphRoom& a, 
 }
 
 struct WallGroup {
-  std::vector<WallPair> walls;
+  std::vector<GraphWallPair> walls;
   double yaw_rad = 0, density = 0;
 };
 
 // Sets of walls that agree: of the largest size, and one fewer (with a wall that deviates, the true one may be smaller).
 std::vector<WallGroup> WallGroups(const MatchGraph& plan, const GraphRoom& a, const MatchGraph& map, const GraphRoom& s,
                                   const GraphMatcherOptions& options) {
-  const std::vector<WallPair> pairs = PossibleWalls(plan, a, map, s, options.room_wall_epsilon_m);
+  const std::vector<GraphWallPair> pairs = PossibleWalls(plan, a, map, s, options.room_wall_epsilon_m);
   if (pairs.size() < kMinGroup) return {};
   std::vector<WallPoint> in_plan, in_map;
-  for (const WallPair& p : pairs) {
+  for (const GraphWallPair& p : pairs) {
     in_plan.push_back(AboutOrigin(plan.walls[p.plan].normal, plan.walls[p.plan].d_m, a.center));
     in_map.push_back(AboutOrigin(map.walls[p.map].normal, map.walls[p.map].d_m, s.center));
   }

@@ -9,9 +9,9 @@
 namespace plumb::runtime {
 
 // Positions in MatchGraph::walls.
-struct WallPair {
+struct GraphWallPair {
   size_t plan = 0, map = 0;
-  friend auto operator<=>(const WallPair&, const WallPair&) = default;
+  friend auto operator<=>(const GraphWallPair&, const GraphWallPair&) = default;
 };
 
 // A room of the plan, a room of the map, and how the map would have to be turned for their walls to agree.
@@ -19,7 +19,7 @@ struct RoomPair {
   size_t plan_room = 0, map_room = 0;  // positions in MatchGraph::rooms
   double yaw_rad = 0;
   // Largest sets of walls that agree at this yaw. Several if a wall deviates: of two walls that face each other either may be the one.
-  std::vector<std::vector<WallPair>> groups;
+  std::vector<std::vector<GraphWallPair>> groups;
   double density = 0;  // of the densest group
 };
 

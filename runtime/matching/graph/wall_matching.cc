@@ -23,29 +23,29 @@ class Comparison {
   Comparison(const MatchGraph& plan, const MatchGraph& map, const PlanarPose& pose, const Eigen::Vector2d& origin_in_map)
       : Comparison(plan, map, pose.rotation() * origin_in_map + pose.t_m, origin_in_map) {}
 
-  [[nodiscard]] double Affinity(const WallPair& p, const WallPair& q, const WallConsistency& bounds) const {
+  [[nodiscard]] double Affinity(const GraphWallPair& p, const GraphWallPair& q, const WallConsistency& bounds) const {
     return WallAffinity(InPlan(p), InPlan(q), InMap(p), InMap(q), bounds);
   }
 
   // The same for a wall that has moved: by its distances from parallel ones, and its angles.
-  [[nodiscard]] double DeviatedAffinity(const WallPair& p, const WallPair& q, const WallConsistency& bounds) const {
+  [[nodiscard]] double DeviatedAffinity(const GraphWallPair& p, const GraphWallPair& q, const WallConsistency& bounds) const {
     return WallAffinityUpToShift(InPlan(p), InPlan(q), InMap(p), InMap(q), bounds);
   }
 
   // Means over `others` but the pair itself.
-  [[nodiscard]] double Mean(const WallPair& pair, const std::vector<ScoredPair>& others, const WallConsistency& bounds) const {
-    return MeanOf(pair, others, [&](const WallPair& other) { return Affinity(pair, other, bounds); });
+  [[nodiscard]] double Mean(const GraphWallPair& pair, const std::vector<ScoredPair>& others, const WallConsistency& bounds) const {
+    return MeanOf(pair, others, [&](const GraphWallPair& other) { return Affinity(pair, other, bounds); });
   }
-  [[nodiscard]] double DeviatedMean(const WallPair& pair, const std::vector<ScoredPair>& others, const WallConsistency& bounds) const {
-    return MeanOf(pair, others, [&](const WallPair& other) { return DeviatedAffinity(pair, other, bounds); });
+  [[nodiscard]] double DeviatedMean(const GraphWallPair& pair, const std::vector<ScoredPair>& others, const WallConsistency& bounds) const {
+    return MeanOf(pair, others, [&](const GraphWallPair& other) { return DeviatedAffinity(pair, other, bounds); });
   }
-  [[nodiscard]] bool AgreesWithAll(const WallPair& pair, const std::vector<ScoredPair>& others, const WallConsistency& bounds) const {
+  [[nodiscard]] bool AgreesWithAll(const GraphWallPair& pair, const std::vector<ScoredPair>& others, const WallConsistency& bounds) const {
     return std::all_of(others.begin(), others.end(), [&](const ScoredPair& other) { return Affinity(pair, other.pair, bounds) > 0; });
   }
 
  private:
   template <class AffinityTo>
-  [[nodiscard]] static double MeanOf(const WallPair& pair, const std::vector<ScoredPair>& others, const AffinityTo& affinity) {
+  [[nodiscard]] static double MeanOf(const GraphWallPair& pair, const std::vector<ScoredPair>& others, const AffinityTo& affinity) {
     double sum = 0;
     size_t count = 0;
     for (const ScoredPair& other : others) {
@@ -56,10 +56,10 @@ class Comparison {
     return count > 0 ? sum / static_cast<double>(count) : 0;
   }
 
-  [[nodiscard]] WallPoint InPlan(const WallPair& p) const {
+  [[nodiscard]] WallPoint InPlan(const GraphWallPair& p) const {
     return AboutOrigin(plan_.walls[p.plan].normal, plan_.walls[p.plan].d_m, origin_in_plan_);
   }
-  [[nodiscard]] WallPoint InMap(const WallPair& p) const {
+  [[nodiscard]] WallPoint InMap(const GraphWallPair& p) const {
     return AboutOrigin(map_.walls[p.map].normal, map_.walls[p.map].d_m, origin_in_map_);
   }
 
@@ -69,15 +69,15 @@ class Comparison {
 
 // A pair of walls and the rooms (positions in a list) that have it.
 struct OwnedPair {
-  WallPair pair;
+  GraphWallPair pair;
   std::vector<size_t> owners;
 };
 
 std::vector<OwnedPair> AllPairs(const std::vector<RoomPair>& rooms) {
   std::vector<OwnedPair> out;
   for (size_t r = 0; r < rooms.size(); ++r) {
-    for (const std::vector<WallPair>& group : rooms[r].groups) {
-      for (const WallPair& pair : group) {
+    for (const std::vector<GraphWallPair>& group : rooms[r].groups) {
+      for (const GraphWallPair& pair : group) {
         auto known = std::find_if(out.begin(), out.end(), [&](const OwnedPair& o) { return o.pair == pair; });
         if (known == out.end()) known = out.insert(out.end(), {pair, {}});
         if (known->owners.empty() || known->owners.back() != r) known->owners.push_back(r);
@@ -113,7 +113,7 @@ bool AllParallel(const MatchGraph& plan, const std::vector<ScoredPair>& walls) {
   return walls.empty() || scatter.determinant() < kMinDeterminant * n * n;
 }
 
-bool Holds(const std::vector<ScoredPair>& walls, const WallPair& pair) {
+bool Holds(const std::vector<ScoredPair>& walls, const GraphWallPair& pair) {
   return std::any_of(walls.begin(), walls.end(), [&](const ScoredPair& w) { return w.pair == pair; });
 }
 
@@ -126,8 +126,8 @@ size_t WallsIn(const MatchGraph& plan, const MatchGraph& map, const std::vector<
 }
 
 // Pairs of walls of matched rooms that are in no match of that pair of rooms.
-std::vector<WallPair> OpenPairs(const MatchGraph& plan, const MatchGraph& map, const Candidate2D& candidate) {
-  std::vector<WallPair> out;
+std::vector<GraphWallPair> OpenPairs(const MatchGraph& plan, const MatchGraph& map, const Candidate2D& candidate) {
+  std::vector<GraphWallPair> out;
   for (const RoomPair& room : candidate.rooms) {
     const std::vector<size_t>&of_plan = plan.rooms[room.plan_room].walls, &of_map = map.rooms[room.map_room].walls;
     const auto taken = [&](size_t w, bool in_plan) {
@@ -161,8 +161,8 @@ std::vector<ScoredPair> OneToOne(std::vector<ScoredPair> pairs) {
   return out;
 }
 
-std::vector<WallPair> Pairs(const std::vector<ScoredPair>& walls) {
-  std::vector<WallPair> out;
+std::vector<GraphWallPair> Pairs(const std::vector<ScoredPair>& walls) {
+  std::vector<GraphWallPair> out;
   for (const ScoredPair& w : walls) out.push_back(w.pair);
   return out;
 }
@@ -178,7 +178,7 @@ void Complete(const MatchGraph& plan, const MatchGraph& map, Candidate2D* candid
   candidate->pose = Align(plan, map, Pairs(candidate->walls), candidate->pose);
   const Comparison comparison(plan, map, candidate->pose, candidate->origin);
   std::vector<ScoredPair> more;
-  for (const WallPair& pair : OpenPairs(plan, map, *candidate)) {
+  for (const GraphWallPair& pair : OpenPairs(plan, map, *candidate)) {
     if (comparison.AgreesWithAll(pair, candidate->walls, options.tight))
       more.push_back({pair, comparison.Mean(pair, candidate->walls, options.tight)});
   }
@@ -213,10 +213,10 @@ double Overlap_m(const GraphWall& plan, const GraphWall& map, const PlanarPose& 
 
 }  // namespace
 
-PlanarPose Align(const MatchGraph& plan, const MatchGraph& map, std::span<const WallPair> walls, const PlanarPose& start) {
+PlanarPose Align(const MatchGraph& plan, const MatchGraph& map, std::span<const GraphWallPair> walls, const PlanarPose& start) {
   PlanarPose pose = start;
   Eigen::Vector2d heading = Eigen::Vector2d::Zero();
-  for (const WallPair& w : walls) {
+  for (const GraphWallPair& w : walls) {
     const double yaw_rad = YawOf(plan.walls[w.plan], map.walls[w.map]);
     heading += Eigen::Vector2d(std::cos(yaw_rad), std::sin(yaw_rad));
   }
@@ -224,7 +224,7 @@ PlanarPose Align(const MatchGraph& plan, const MatchGraph& map, std::span<const 
   // Turned about the middle of the walls: where the start's shift is to be kept, it is theirs and not the map's origin's.
   std::vector<Eigen::Vector2d> middles;
   Eigen::Vector2d center = Eigen::Vector2d::Zero();
-  for (const WallPair& w : walls) {
+  for (const GraphWallPair& w : walls) {
     middles.push_back(PointOn(map.walls[w.map]));
     center += middles.back() / static_cast<double>(walls.size());
   }
@@ -249,7 +249,7 @@ std::optional<Candidate2D> MatchWalls(const MatchGraph& plan, const MatchGraph& 
   const std::vector<OwnedPair> pairs = AllPairs(rooms);
   Clique best;
   PlanarPose pose;
-  for (const std::vector<WallPair>& group : base->groups) {
+  for (const std::vector<GraphWallPair>& group : base->groups) {
     PlanarPose start;
     start.yaw_rad = base->yaw_rad;
     start.t_m = in_plan - start.rotation() * in_map;
@@ -294,7 +294,7 @@ std::vector<ScoredPair> DeviatedWalls(const MatchGraph& plan, const MatchGraph& 
                                       const GraphMatcherOptions& options) {
   const Comparison comparison(plan, map, candidate.pose, candidate.origin);
   std::vector<ScoredPair> deviated;
-  for (const WallPair& pair : OpenPairs(plan, map, candidate)) {
+  for (const GraphWallPair& pair : OpenPairs(plan, map, candidate)) {
     if (Offset_m(plan.walls[pair.plan], map.walls[pair.map], candidate.pose) > options.max_deviation_m) continue;
     const double score = comparison.DeviatedMean(pair, candidate.walls, options.relaxed);
     if (score >= options.min_deviated_affinity) deviated.push_back({pair, score});

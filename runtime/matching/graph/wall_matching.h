@@ -12,7 +12,7 @@ namespace plumb::runtime {
 
 // A pair of walls with its mean affinity to all others of a match.
 struct ScoredPair {
-  WallPair pair;
+  GraphWallPair pair;
   double score = 0;
 };
 
@@ -28,7 +28,7 @@ struct Candidate2D {
 
 // Least squares over the walls: yaw, then the shift that puts the middle of each wall of the map on its line of the plan. What the walls
 // leave open (a shift along parallel ones) stays as in `start`.
-[[nodiscard]] PlanarPose Align(const MatchGraph& plan, const MatchGraph& map, std::span<const WallPair> walls, const PlanarPose& start);
+[[nodiscard]] PlanarPose Align(const MatchGraph& plan, const MatchGraph& map, std::span<const GraphWallPair> walls, const PlanarPose& start);
 
 // The densest set of wall pairs across the rooms, about the centre of the best of them as its own walls place it. Rooms with fewer than two
 // walls in it are left out; none if fewer than options.min_rooms remain, or all walls are parallel.

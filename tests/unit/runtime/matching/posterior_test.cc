@@ -120,6 +120,9 @@ TEST(WallsTellScale, OnlyWhereTheyAgreeWithThePlansToo) {
   EXPECT_FALSE(WallsTellScale(fit, options));
   fit.sigma_scale = 0.02;
   EXPECT_FALSE(WallsTellScale(fit, options));
+  fit.sigma_scale = 0.0005;
+  fit.scale_error = 0.003;  // of ranges, in a large map
+  EXPECT_TRUE(WallsTellScale(fit, options));
 }
 
 TEST(RaysVouch, OnlyFarAheadOfTheRivalAndTheMirrorImage) {

@@ -87,6 +87,7 @@ TEST(Report, ShowsWhereARobotThatWasNotFoundCouldBe) {
   EXPECT_THAT(found, Not(HasSubstr("Where it could be")));
   EXPECT_THAT(found, Not(HasSubstr("class=\"mark place\"")));
   run.online.clear();
+  run.smoothed.clear();
   for (VerdictRow& v : run.verdicts) v.verdict = "ambiguous";
   const std::string html = *RunToHtml(house, run, MakeInfo());
   EXPECT_THAT(html, HasSubstr("<td>70.0</td>"));

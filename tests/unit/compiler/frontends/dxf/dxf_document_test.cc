@@ -54,6 +54,14 @@ TEST(DxfDocument, NumbersOfLinesMayBeWrittenInAnyWay) {
     EXPECT_EQ(d.entities[0].paths[0].points[0], Eigen::Vector2d(1.5, 2)) << x0;
     EXPECT_EQ(d.entities[1].paths[0].points[1], Eigen::Vector2d(7, 8)) << x0;
   }
+  for (const char* x0 : {"nan", "inf", "-inf", "abc", "", "1.5m"}) {
+    DiagnosticSink sink;
+    const auto d = Read(line(x0), sink);
+    ASSERT_TRUE(d);
+    ASSERT_EQ(d->entities.size(), 1u) << "a number that is none is no 0: " << x0;
+    EXPECT_EQ(d->entities[0].paths[0].points[1], Eigen::Vector2d(7, 8)) << x0;
+    EXPECT_EQ(sink.all().size(), 1u) << x0;
+  }
   DiagnosticSink sink;
   const auto too_large = Read(line("1e300"), sink);
   ASSERT_TRUE(too_large);

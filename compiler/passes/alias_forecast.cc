@@ -62,7 +62,7 @@ class Forecast {
       for (; last < votes.size() && votes[last].bin == votes[first].bin; ++last) pairs.push_back(votes[last].pair);
       size_t points = 0;
       for (const Part& part : PartsThatStay(std::move(pairs))) {
-        for (const RoomPair& pair : part.pairs) points += sections_.Of(pair.from).size();
+        for (const RoomPair& pair : part.pairs) points += sections_.NumPoints(pair.from);
       }
       if (points > 0) out.push_back({votes[first].motion, points});
     }
@@ -225,7 +225,7 @@ class Forecast {
       const SectionComparison& c = compared.at(room);
       points += c.points;
       unmatched += c.unmatched_elements.size();
-      alias.section_length_m += static_cast<double>(sections_.Of(room).size()) * sections_.step_m() / heights;
+      alias.section_length_m += static_cast<double>(sections_.NumPoints(room)) * sections_.step_m() / heights;
       for (uint32_t e : c.unmatched_elements) ++by_element[e];
     }
     alias.overlap_ratio = 1 - static_cast<double>(unmatched) / static_cast<double>(points);

@@ -139,8 +139,6 @@ std::string SectionOptions::Check() const {
   return {};
 }
 
-using FoundPoint = std::pair<RoomId, SectionPoint>;
-
 // Cuts triangle by triangle. Points come at equal steps along all sections of an element, however finely they are divided.
 class RoomSections::Cutter {
  public:
@@ -148,19 +146,19 @@ class RoomSections::Cutter {
       : graph_(graph), options_(options), levels_(levels), planes_(planes) {}
 
   // Points with their rooms, of the triangles from the first of an element to the last of one.
-  std::vector<FoundPoint> Run(std::span<const Triangle> triangles) {
+  Found Run(std::span<const Triangle> triangles) {
     uint32_t element = kNoElement;
     for (const Triangle& t : triangles) {
       if (!IsFixed(graph_.elements[t.element])) continue;
       if (t.element != element) owed_m_ = options_.step_m / 2;
       element = t.element;
-      Cut(t);
+      CutTriangle(t);
     }
-    return std::move(points_);
+    return std::move(found_);
   }
 
  private:
-  void Cut(const Triangle& t) {
+  void CutTriangle(const Triangle& t) {
     const Eigen::Vector3f &a = graph_.mesh.vertices[t.a], &b = graph_.mesh.vertices[t.b], &c = graph_.mesh.vertices[t.c];
     const double low = std::min({a.z(), b.z(), c.z()}), high = std::max({a.z(), b.z(), c.z()});
     auto plane = std::lower_bound(planes_.begin(), planes_.end(), low, [](const Plane& p, double z) { return p.z_m <= z; });
@@ -169,10 +167,10 @@ class RoomSections::Cutter {
     const Eigen::Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
     const double level_part = normal.head<2>().norm();
     if (level_part <= kMinSlope * normal.norm()) return;
-    for (; plane != planes_.end() && plane->z_m <= high; ++plane) Cut(corners, normal.head<2>() / level_part, t.element, *plane);
+    for (; plane != planes_.end() && plane->z_m <= high; ++plane) CutAt(*plane, corners, {normal.head<2>() / level_part, t.element, plane->height});
   }
 
-  void Cut(const std::array<Eigen::Vector3d, 3>& corners, const Eigen::Vector2d& normal, uint32_t element, const Plane& plane) {
+  void CutAt(const Plane& plane, const std::array<Eigen::Vector3d, 3>& corners, const Cut& cut) {
     std::array<Eigen::Vector2d, 2> ends;
     size_t n = 0;
     for (size_t i = 0; i < 3; ++i) {
@@ -183,14 +181,16 @@ class RoomSections::Cutter {
     const Level& level = levels_[plane.level];
     if (n < 2) return;
     const Eigen::AlignedBox2d before =
-        Eigen::AlignedBox2d(ends[0].cwiseMin(ends[1]), ends[0].cwiseMax(ends[1])).translated(kStepOff_m * normal);
+        Eigen::AlignedBox2d(ends[0].cwiseMin(ends[1]), ends[0].cwiseMax(ends[1])).translated(kStepOff_m * cut.normal);
     if (!level.box().intersects(before)) return;
     const double length_m = (ends[1] - ends[0]).norm();
+    const size_t num_points = found_.points.size();
     for (; owed_m_ < length_m; owed_m_ += options_.step_m) {
       const Eigen::Vector2d at = ends[0] + owed_m_ / length_m * (ends[1] - ends[0]);
-      const RoomId room = level.RoomAt(at + kStepOff_m * normal);
-      if (room.valid()) points_.push_back({room, {at, normal, element, plane.height}});
+      const RoomId room = level.RoomAt(at + kStepOff_m * cut.normal);
+      if (room.valid()) found_.points.push_back({at, static_cast<uint32_t>(found_.cuts.size()), room.value});
     }
+    if (found_.points.size() > num_points) found_.cuts.push_back(cut);
     owed_m_ -= length_m;
   }
 
@@ -200,7 +200,7 @@ class RoomSections::Cutter {
   const SectionOptions& options_;
   const std::vector<Level>& levels_;
   const std::vector<Plane>& planes_;
-  std::vector<FoundPoint> points_;
+  Found found_;
   double owed_m_ = 0;  // to the next point
 };
 
@@ -216,29 +216,33 @@ std::vector<std::span<const Triangle>> RoomSections::PartsOf(const std::vector<T
 }
 
 // By part of the mesh.
-std::vector<std::vector<FoundPoint>> RoomSections::Find(const AGraph& graph, const std::vector<bool>& wanted) const {
+std::vector<RoomSections::Found> RoomSections::Find(const AGraph& graph, const std::vector<bool>& wanted) const {
   const std::vector<Level> levels = LevelsOf(graph, wanted);
   const std::vector<Plane> planes = PlanesOf(levels, options_.heights_m);
   const auto parts = PartsOf(graph.mesh.triangles);
-  std::vector<std::vector<FoundPoint>> out(parts.size());
+  std::vector<Found> out(parts.size());
   tbb::parallel_for(size_t{0}, parts.size(), [&](size_t i) { out[i] = Cutter(graph, levels, planes, options_).Run(parts[i]); });
   return out;
 }
 
 RoomSections::RoomSections(const AGraph& graph, const std::vector<bool>& wanted, const SectionOptions& options)
     : options_(options), min_cos_(std::cos(options.max_turn_rad)), begin_(graph.rooms.size() + 1), grids_(graph.rooms.size()) {
-  auto found = Find(graph, wanted);
-  size_t count = 0;
-  for (const auto& part : found) {
-    count += part.size();
-    for (const auto& [room, point] : part) ++begin_[room.index() + 1];
+  std::vector<Found> found = Find(graph, wanted);
+  size_t count = 0, num_cuts = 0;
+  for (const Found& part : found) {
+    count += part.points.size();
+    num_cuts += part.cuts.size();
+    for (const Point& p : part.points) ++begin_[p.room + 1];
   }
   std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
   stride_ = 1 + count / options_.max_compared;
+  cuts_.reserve(num_cuts);
   points_.resize(count);
   std::vector<uint32_t> next(begin_.begin(), begin_.end() - 1);
-  for (auto& part : found) {
-    for (const auto& [room, point] : part) points_[next[room.index()]++] = point;
+  for (Found& part : found) {
+    const auto first_cut = static_cast<uint32_t>(cuts_.size());
+    for (const Point& p : part.points) points_[next[p.room]++] = {p.at, first_cut + p.cut, p.room};
+    cuts_.insert(cuts_.end(), part.cuts.begin(), part.cuts.end());
     part = {};
   }
   tbb::parallel_for(size_t{0}, grids_.size(), [this](size_t r) { BuildGrid(r); });
@@ -254,55 +258,53 @@ void RoomSections::BuildGrid(size_t room) {
   grid.cell_m = std::max(kMinCell_m, box.sizes().maxCoeff() / kMaxCells);
   grid.columns = CellsAlong(box.sizes().x(), grid.cell_m);
   grid.rows = CellsAlong(box.sizes().y(), grid.cell_m);
-  const auto cell = [&](const SectionPoint& p) {
+  const auto cell = [&](const Point& p) {
     const Eigen::Vector2d at = p.at - grid.low;
-    return (static_cast<size_t>(p.height) * static_cast<size_t>(grid.rows) + static_cast<size_t>(CellAt(at.y(), grid.cell_m, grid.rows))) *
+    return (static_cast<size_t>(cuts_[p.cut].height) * static_cast<size_t>(grid.rows) + static_cast<size_t>(CellAt(at.y(), grid.cell_m, grid.rows))) *
                static_cast<size_t>(grid.columns) +
            static_cast<size_t>(CellAt(at.x(), grid.cell_m, grid.columns));
   };
-  const std::vector<SectionPoint> unsorted(points_.begin() + first, points_.begin() + last);
+  const std::vector<Point> unsorted(points_.begin() + first, points_.begin() + last);
   grid.begin.assign(options_.heights_m.size() * static_cast<size_t>(grid.rows) * static_cast<size_t>(grid.columns) + 1, 0);
-  for (const SectionPoint& p : unsorted) ++grid.begin[cell(p) + 1];
+  for (const Point& p : unsorted) ++grid.begin[cell(p) + 1];
   grid.begin[0] = first;
   std::partial_sum(grid.begin.begin(), grid.begin.end(), grid.begin.begin());
   std::vector<uint32_t> next(grid.begin.begin(), grid.begin.end() - 1);
-  for (const SectionPoint& p : unsorted) points_[next[cell(p)]++] = p;
+  for (const Point& p : unsorted) points_[next[cell(p)]++] = p;
 }
 
-bool RoomSections::Coincides(RoomId room, const SectionPoint& p) const {
+bool RoomSections::Coincides(RoomId room, const Eigen::Vector2d& place, const Eigen::Vector2d& normal, uint32_t height) const {
   const Grid& grid = grids_[room.index()];
   const double along_m = options_.step_m / 2 + options_.tolerance_m;
-  const Eigen::Vector2d at = p.at - grid.low;
+  const Eigen::Vector2d at = place - grid.low;
   const int x0 = CellAt(at.x() - along_m, grid.cell_m, grid.columns), x1 = CellAt(at.x() + along_m, grid.cell_m, grid.columns);
   const int y0 = CellAt(at.y() - along_m, grid.cell_m, grid.rows), y1 = CellAt(at.y() + along_m, grid.cell_m, grid.rows);
   for (int y = y0; y <= y1; ++y) {
     const size_t row =
-        (static_cast<size_t>(p.height) * static_cast<size_t>(grid.rows) + static_cast<size_t>(y)) * static_cast<size_t>(grid.columns);
+        (static_cast<size_t>(height) * static_cast<size_t>(grid.rows) + static_cast<size_t>(y)) * static_cast<size_t>(grid.columns);
     for (uint32_t i = grid.begin[row + static_cast<size_t>(x0)]; i < grid.begin[row + static_cast<size_t>(x1) + 1]; ++i) {
-      const Eigen::Vector2d off = points_[i].at - p.at;
-      if (std::abs(off.dot(p.normal)) <= options_.tolerance_m && std::abs(Cross(p.normal, off)) <= along_m &&
-          points_[i].normal.dot(p.normal) >= min_cos_)
+      const Eigen::Vector2d off = points_[i].at - place;
+      if (std::abs(off.dot(normal)) <= options_.tolerance_m && std::abs(Cross(normal, off)) <= along_m &&
+          cuts_[points_[i].cut].normal.dot(normal) >= min_cos_) {
         return true;
+      }
     }
   }
   return false;
 }
 
 void RoomSections::CompareOneWay(RoomId from, const PlanarMotion& motion, RoomId to, SectionComparison& out) const {
-  const std::span<const SectionPoint> points = Of(from);
-  const size_t stride = std::clamp<size_t>(points.size() / kLeastCompared, 1, stride_);
-  for (size_t i = 0; i < points.size(); i += stride) {
-    SectionPoint p = points[i];
+  const size_t stride = std::clamp<size_t>(NumPoints(from) / kLeastCompared, 1, stride_);
+  for (size_t i = begin_[from.index()]; i < begin_[from.index() + 1]; i += stride) {
+    const Cut& cut = cuts_[points_[i].cut];
     ++out.points;
-    p.at = motion.Apply(p.at);
-    p.normal = motion.Rotate(p.normal);
-    if (!Coincides(to, p)) out.unmatched_elements.push_back(p.element);
+    if (!Coincides(to, motion.Apply(points_[i].at), motion.Rotate(cut.normal), cut.height)) out.unmatched_elements.push_back(cut.element);
   }
 }
 
 SectionComparison RoomSections::Compare(RoomId from, const PlanarMotion& motion, RoomId to) const {
   SectionComparison out;
-  if (Of(from).empty() || Of(to).empty()) return out;
+  if (NumPoints(from) == 0 || NumPoints(to) == 0) return out;
   CompareOneWay(from, motion, to, out);
   CompareOneWay(to, motion.Inverse(), from, out);
   return out;

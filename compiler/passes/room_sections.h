@@ -21,14 +21,6 @@ struct SectionOptions {
   [[nodiscard]] std::string Check() const;
 };
 
-// Stands for `step_m` of section.
-struct SectionPoint {
-  Eigen::Vector2d at = Eigen::Vector2d::Zero();      // mesh frame: plan minus AGraph::origin
-  Eigen::Vector2d normal = Eigen::Vector2d::Zero();  // unit, into the room
-  uint32_t element = 0;
-  uint32_t height = 0;  // position in SectionOptions::heights_m
-};
-
 // Which of the points that were compared have no counterpart.
 struct SectionComparison {
   size_t points = 0;
@@ -44,9 +36,8 @@ class RoomSections {
   // does not face a room. O(T log L + S) for T triangles, L floor levels and S points.
   RoomSections(const AGraph& graph, const std::vector<bool>& wanted, const SectionOptions& options);
 
-  [[nodiscard]] std::span<const SectionPoint> Of(RoomId room) const {
-    return {points_.data() + begin_[room.index()], points_.data() + begin_[room.index() + 1]};
-  }
+  // Each stands for `step_m` of section.
+  [[nodiscard]] size_t NumPoints(RoomId room) const { return begin_[room.index() + 1] - begin_[room.index()]; }
 
   // The points of `from` after `motion` (mesh frame) against those of `to`, and back.
   [[nodiscard]] SectionComparison Compare(RoomId from, const PlanarMotion& motion, RoomId to) const;
@@ -54,6 +45,22 @@ class RoomSections {
   [[nodiscard]] double step_m() const { return options_.step_m; }
 
  private:
+  // One triangle at one height. What its points share is kept once: of large buildings there are tens of millions.
+  struct Cut {
+    Eigen::Vector2d normal = Eigen::Vector2d::Zero();  // unit, into the room
+    uint32_t element = 0;
+    uint32_t height = 0;  // position in SectionOptions::heights_m
+  };
+  struct Point {
+    Eigen::Vector2d at = Eigen::Vector2d::Zero();  // mesh frame: plan minus AGraph::origin
+    uint32_t cut = 0;                              // position in cuts_
+    uint32_t room = 0;
+  };
+  // Of a part of the mesh; its points' cuts are positions in its own.
+  struct Found {
+    std::vector<Cut> cuts;
+    std::vector<Point> points;
+  };
   // Points of one room by cell, so that those near a place are found at once.
   struct Grid {
     Eigen::Vector2d low = Eigen::Vector2d::Zero();
@@ -63,15 +70,16 @@ class RoomSections {
   };
   class Cutter;
   static std::vector<std::span<const Triangle>> PartsOf(const std::vector<Triangle>& triangles);
-  [[nodiscard]] std::vector<std::vector<std::pair<RoomId, SectionPoint>>> Find(const AGraph& graph, const std::vector<bool>& wanted) const;
+  [[nodiscard]] std::vector<Found> Find(const AGraph& graph, const std::vector<bool>& wanted) const;
   void BuildGrid(size_t room);
-  [[nodiscard]] bool Coincides(RoomId room, const SectionPoint& p) const;
+  [[nodiscard]] bool Coincides(RoomId room, const Eigen::Vector2d& place, const Eigen::Vector2d& normal, uint32_t height) const;
   void CompareOneWay(RoomId from, const PlanarMotion& motion, RoomId to, SectionComparison& out) const;
 
   SectionOptions options_;
   double min_cos_;
   size_t stride_ = 1;                 // every so many-th point of a room is compared
-  std::vector<SectionPoint> points_;  // by room, then by cell of its grid
+  std::vector<Cut> cuts_;             // in the order of the mesh
+  std::vector<Point> points_;         // by room, then by cell of its grid
   std::vector<uint32_t> begin_;       // per room, and the end
   std::vector<Grid> grids_;           // per room
 };

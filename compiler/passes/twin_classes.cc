@@ -41,7 +41,7 @@ std::vector<TwinClass> FindTwinClasses(const RoomShapes& shapes, const RoomSecti
   std::vector<TwinClass> classes;
   for (size_t r = 0; r < num_rooms; ++r) {
     const RoomId room(r);
-    if (sections.Of(room).empty()) continue;
+    if (sections.NumPoints(room) == 0) continue;
     const auto joins = [&](TwinClass& c) {
       if (!shapes.MayBeTwins(c.rooms.front(), room)) return false;
       std::vector<PlanarMotion> motions = verified(c.rooms.front(), room);

@@ -26,7 +26,8 @@ constexpr double kFrontPenalty_nats = 8;   // for taking a surface with a wall v
 constexpr double kInOpeningRatio = 0.6;    // of an observation's extent either way: it is of what fills the opening
 constexpr double kHalfExtentSigmas = 1.7;  // half the extent of evenly spread points
 constexpr double kMaxThicker_m = 0.10;     // no wall is built thicker than planned by more: one of its faces is the front of furniture
-constexpr double kSameNormal_cos = 0.999, kMinShared_m2 = 0.5, kMaxFlush_m = 0.2, kMinSharedRatio = 0.5;  // of walls that one patch runs along
+constexpr double kSameNormal_cos = 0.999, kMinShared_m2 = 0.5, kMaxFlush_m = 0.2,
+                 kMinSharedRatio = 0.5;                             // of walls that one patch runs along
 constexpr double kSameDirection_rad = 0.052, kDirectionSigmas = 2;  // patches of one line are parallel to this
 constexpr double kStepPerMetre = 0.01;     // lines are compared at a distance: allow for their direction errors
 
@@ -35,7 +36,8 @@ struct ViewExtent {
   Eigen::Vector2d middle, reach;  // to both sides
 };
 
-std::vector<ViewExtent> ExtentsOnFace(const SGraph& map, const MapSurface& seen, const Surface& surface, const Eigen::Isometry3d& T_plan_map) {
+std::vector<ViewExtent> ExtentsOnFace(const SGraph& map, const MapSurface& seen, const Surface& surface,
+                                      const Eigen::Isometry3d& T_plan_map) {
   Eigen::Matrix<double, 4, 2> axes = Eigen::Matrix<double, 4, 2>::Zero();  // along and up, of homogeneous points
   axes.col(0).head<2>() = (surface.end - surface.start).normalized();
   axes(2, 1) = 1;
@@ -190,8 +192,8 @@ class Assignment {
   const CouplingOptions& options_;
 };
 
-// Drops what stands before a wall whose other face was seen as well, where the two together would make the wall far too thick. A planar laser
-// sees of a cupboard no more and no less than of a wall; a lidar with many rings sees over it, and lines decide.
+// Drops what stands before a wall whose other face was seen as well, where the two together would make the wall far too thick. A planar
+// laser sees of a cupboard no more and no less than of a wall; a lidar with many rings sees over it, and lines decide.
 void DropFurnitureFronts(const std::vector<Patch>& patches, std::vector<std::vector<FaceCandidate>>& assigned) {
   std::map<int, std::pair<double, double>> sides;  // sum of offset * area, area
   for (size_t i = 0; i < patches.size(); ++i) {
@@ -212,16 +214,18 @@ void DropFurnitureFronts(const std::vector<Patch>& patches, std::vector<std::vec
 }
 
 // Per patch its candidates, the chosen one first.
-std::vector<std::vector<FaceCandidate>> Assigned(const std::vector<PlannedFace>& faces, const std::vector<Patch>& patches, const SightLines& sight,
-                                             const std::vector<WallDeviation>& known, double max_offset_m, const CouplingOptions& options) {
+std::vector<std::vector<FaceCandidate>> Assigned(const std::vector<PlannedFace>& faces, const std::vector<Patch>& patches,
+                                                 const SightLines& sight, const std::vector<WallDeviation>& known, double max_offset_m,
+                                                 const CouplingOptions& options) {
   std::vector<std::vector<FaceCandidate>> candidates;
   for (const Patch& patch : patches) candidates.push_back(CandidatesOf(patch, faces, sight, known, max_offset_m, options));
   return Assignment(patches, std::move(candidates), options).Solve();
 }
 
 std::vector<FarWall> FarWalls(const AGraph& plan, const std::vector<WallFrame>& frames, const std::vector<Patch>& patches,
-                              const std::vector<std::vector<FaceCandidate>>& assigned, const std::vector<std::vector<WallOpening>>& openings,
-                              const SightLines& sight, const CouplingOptions& options) {
+                              const std::vector<std::vector<FaceCandidate>>& assigned,
+                              const std::vector<std::vector<WallOpening>>& openings, const SightLines& sight,
+                              const CouplingOptions& options) {
   std::vector<Patch> unmatched;
   std::vector<bool> matched(plan.walls.size(), false);
   for (size_t i = 0; i < patches.size(); ++i) {
@@ -235,12 +239,14 @@ std::vector<FarWall> FarWalls(const AGraph& plan, const std::vector<WallFrame>& 
 }
 
 // The chosen face, and those of other walls that the patch goes on along and that nothing else was matched to. `sides` gets theirs.
-std::vector<FaceCandidate> FacesAlong(const AGraph& plan, const Patch& patch, const std::vector<FaceCandidate>& candidates, std::set<int>& sides) {
+std::vector<FaceCandidate> FacesAlong(const AGraph& plan, const Patch& patch, const std::vector<FaceCandidate>& candidates,
+                                      std::set<int>& sides) {
   std::vector<FaceCandidate> faces{candidates.front()};
   const auto beside = [&](const Surface& a, const Surface& b) {
     const Eigen::Vector2d along = (a.end - a.start).normalized();
     const double from = along.dot(b.start - a.start), to = along.dot(b.end - a.start);
-    return a.normal.dot(b.normal) > kSameNormal_cos && std::min(a.length_m(), std::max(from, to)) - std::max(0.0, std::min(from, to)) < kMinOverlap_m;
+    return a.normal.dot(b.normal) > kSameNormal_cos &&
+           std::min(a.length_m(), std::max(from, to)) - std::max(0.0, std::min(from, to)) < kMinOverlap_m;
   };
   for (const FaceCandidate& c : candidates) {
     const Surface& surface = plan.surfaces[c.surface.index()];
@@ -249,7 +255,8 @@ std::vector<FaceCandidate> FacesAlong(const AGraph& plan, const Patch& patch, co
     const double a = (surface.end - surface.start).dot(patch.start - surface.start) / surface.length_m();
     const double b = (surface.end - surface.start).dot(patch.end - surface.start) / surface.length_m();
     if (std::min(surface.length_m(), std::max(a, b)) - std::max(0.0, std::min(a, b)) < kMinSharedRatio * surface.length_m()) continue;
-    if (!std::all_of(faces.begin(), faces.end(), [&](const FaceCandidate& f) { return beside(plan.surfaces[f.surface.index()], surface); })) continue;
+    if (!std::all_of(faces.begin(), faces.end(), [&](const FaceCandidate& f) { return beside(plan.surfaces[f.surface.index()], surface); }))
+      continue;
     faces.push_back(c);
     sides.insert(c.side);
   }
@@ -265,7 +272,9 @@ void AddMatches(const SGraph& map, const AGraph& plan, const Patch& patch, const
   const auto face_of = [&](size_t view) {
     size_t best = 0;
     for (size_t k = 1; k < faces.size(); ++k) {
-      if (Seen_m(views[k][view], plan.surfaces[faces[k].surface.index()]) > Seen_m(views[best][view], plan.surfaces[faces[best].surface.index()])) best = k;
+      if (Seen_m(views[k][view], plan.surfaces[faces[k].surface.index()]) >
+          Seen_m(views[best][view], plan.surfaces[faces[best].surface.index()]))
+        best = k;
     }
     return best;
   };
@@ -283,18 +292,22 @@ void AddMatches(const SGraph& map, const AGraph& plan, const Patch& patch, const
 }  // namespace
 
 std::string CouplingOptions::Check() const {
-  const std::pair<const char*, double> positive[] = {{"max_offset_m", max_offset_m}, {"planar_max_offset_m", planar_max_offset_m}, {"max_yaw_rad", max_yaw_rad},
-      {"far_offset_m", far_offset_m}, {"far_yaw_rad", far_yaw_rad},
-      {"max_level_offset_m", max_level_offset_m}, {"max_step_m", max_step_m}, {"offset_tau0_m", offset_tau0_m},
-      {"offset_tau1_m", offset_tau1_m}, {"yaw_tau0_rad", yaw_tau0_rad}, {"yaw_tau1_rad", yaw_tau1_rad}};
+  const std::pair<const char*, double> positive[] = {{"max_offset_m", max_offset_m},   {"planar_max_offset_m", planar_max_offset_m},
+                                                     {"max_yaw_rad", max_yaw_rad},     {"far_offset_m", far_offset_m},
+                                                     {"far_yaw_rad", far_yaw_rad},     {"max_level_offset_m", max_level_offset_m},
+                                                     {"max_step_m", max_step_m},       {"offset_tau0_m", offset_tau0_m},
+                                                     {"offset_tau1_m", offset_tau1_m}, {"yaw_tau0_rad", yaw_tau0_rad},
+                                                     {"yaw_tau1_rad", yaw_tau1_rad}};
   for (const auto& [name, value] : positive) {
     if (!(value > 0)) return fmt::format("CouplingOptions.{} = {}; must be > 0", name, value);
   }
-  const std::pair<const char*, double> ratios[] = {{"min_overlap_ratio", min_overlap_ratio}, {"min_height_overlap_ratio", min_height_overlap_ratio}};
+  const std::pair<const char*, double> ratios[] = {{"min_overlap_ratio", min_overlap_ratio},
+                                                   {"min_height_overlap_ratio", min_height_overlap_ratio}};
   for (const auto& [name, value] : ratios) {
     if (!(value >= 0 && value <= 1)) return fmt::format("CouplingOptions.{} = {}; must be in [0, 1]", name, value);
   }
-  if (!(deviated_ratio > 0 && deviated_ratio < 1)) return fmt::format("CouplingOptions.deviated_ratio = {}; must be in (0, 1)", deviated_ratio);
+  if (!(deviated_ratio > 0 && deviated_ratio < 1))
+    return fmt::format("CouplingOptions.deviated_ratio = {}; must be in (0, 1)", deviated_ratio);
   if (!(offset_tau1_m > offset_tau0_m)) return fmt::format("CouplingOptions.offset_tau1_m = {}; must be > offset_tau0_m", offset_tau1_m);
   if (!(yaw_tau1_rad > yaw_tau0_rad)) return fmt::format("CouplingOptions.yaw_tau1_rad = {}; must be > yaw_tau0_rad", yaw_tau1_rad);
   return {};
@@ -325,10 +338,13 @@ std::vector<Match> MatchSurfaces(const SGraph& map, const AGraph& plan, const Ei
   }
   for (size_t i = 0; i < patches.size(); ++i) {
     if (assigned[i].empty()) continue;
-    const std::vector<FaceCandidate> along = map.planar ? std::vector{assigned[i].front()} : FacesAlong(plan, patches[i], assigned[i], sides);
+    const std::vector<FaceCandidate> along =
+        map.planar ? std::vector{assigned[i].front()} : FacesAlong(plan, patches[i], assigned[i], sides);
     AddMatches(map, plan, patches[i], along, openings, T_plan_map, matches);
   }
-  std::sort(matches.begin(), matches.end(), [](const Match& a, const Match& b) { return std::pair(a.map_surface, a.plan_surface.value) < std::pair(b.map_surface, b.plan_surface.value); });
+  std::sort(matches.begin(), matches.end(), [](const Match& a, const Match& b) {
+    return std::pair(a.map_surface, a.plan_surface.value) < std::pair(b.map_surface, b.plan_surface.value);
+  });
   return matches;
 }
 

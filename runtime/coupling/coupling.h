@@ -25,7 +25,8 @@ struct CouplingOptions {
   // The same in maps of planar lasers, which do not see over furniture: below the depth of shelves.
   double planar_max_offset_m = 0.2;
   double max_yaw_rad = 0.35;
-  // The same for walls that nothing is matched to within these gates, where lines of sight prove that they are not where planned (wall_search.h).
+  // The same for walls that nothing is matched to within these gates, where lines of sight prove that they are not where planned
+  // (wall_search.h).
   double far_offset_m = 0.65, far_yaw_rad = 0.55;
   double max_level_offset_m = 0.25; // the same for floors and ceilings
   double min_overlap_ratio = 0.3;   // of the shorter of the two, along the wall
@@ -44,19 +45,20 @@ struct Match {
   SurfaceId plan_surface;    // AGraph::surfaces; none for floors and ceilings
   RoomId room;               // whose floor or ceiling; none for walls
   double offset_m = 0, yaw_rad = 0;  // as measured under the given transform, at the middle of the overlap (floors, ceilings: along +z)
-  // Of MapSurface::observations, ascending: seen in the wall's openings, or of the next wall. They got into the patch because they line up with it,
-  // and say nothing of the wall.
+  // Of MapSurface::observations, ascending: seen in the wall's openings, or of the next wall. They got into the patch because they line up
+  // with it, and say nothing of the wall.
   std::vector<uint32_t> mistaken;
   [[nodiscard]] bool IsMistaken(size_t observation) const { return std::binary_search(mistaken.begin(), mistaken.end(), observation); }
 };
 
-// One-to-one where the plan has one candidate, many map patches to one plan surface where the map has the wall in pieces, and one patch to the
-// surfaces of several walls where it runs along them one after the other: each of its observations then counts for one of them. Ambiguous assignments are decided by the smallest sum of -log p. All patches of one side of one wall lie on one line: where
-// they do not, one line is the wall and the others go to their next candidate or stay unmatched (furniture). A line that lies behind
-// another and reaches higher, or has at least half its area, is the wall rather than the one in front: nothing is seen through a wall.
-// What goes far beyond a face that it stands off from is not that face. A patch most of which was seen in doorways and windows of the wall is leaves, panes and frames, and never matched to the wall.
-// `known`: per plan wall the deviation estimated so far (empty at first), so that a deviated wall keeps its patches.
-// In the order of map surfaces. O(map surfaces * plan surfaces). Deterministic.
+// One-to-one where the plan has one candidate, many map patches to one plan surface where the map has the wall in pieces, and one patch to
+// the surfaces of several walls where it runs along them one after the other: each of its observations then counts for one of them.
+// Ambiguous assignments are decided by the smallest sum of -log p. All patches of one side of one wall lie on one line: where they do not,
+// one line is the wall and the others go to their next candidate or stay unmatched (furniture). A line that lies behind another and reaches
+// higher, or has at least half its area, is the wall rather than the one in front: nothing is seen through a wall. What goes far beyond a
+// face that it stands off from is not that face. A patch most of which was seen in doorways and windows of the wall is leaves, panes and
+// frames, and never matched to the wall. `known`: per plan wall the deviation estimated so far (empty at first), so that a deviated wall
+// keeps its patches. In the order of map surfaces. O(map surfaces * plan surfaces). Deterministic.
 [[nodiscard]] std::vector<Match> MatchSurfaces(const SGraph& map, const AGraph& plan, const Eigen::Isometry3d& T_plan_map,
                                                const std::vector<WallDeviation>& known, const CouplingOptions& options = {});
 

@@ -27,8 +27,9 @@ bool IsMostOf(const PlannedFace& face, const std::vector<PlannedFace>& faces, co
   return explained >= kMinExplained && height_m >= kMinExplainedHeight * (patch.z_max - patch.z_min);
 }
 
-std::optional<FaceCandidate> Compare(const Patch& patch, const PlannedFace& face, const std::vector<PlannedFace>& faces, const WallDeviation& known,
-                                 const SightLines& sight, double max_offset_m, const CouplingOptions& options) {
+std::optional<FaceCandidate> Compare(const Patch& patch, const PlannedFace& face, const std::vector<PlannedFace>& faces,
+                                     const WallDeviation& known, const SightLines& sight, double max_offset_m,
+                                     const CouplingOptions& options) {
   const Surface& surface = *face.surface;
   const WallFrame& frame = *face.frame;
   const std::vector<WallOpening>& openings = *face.openings;
@@ -62,7 +63,8 @@ std::optional<FaceCandidate> Compare(const Patch& patch, const PlannedFace& face
   if (off_plan && IsSeenThrough(patch, surface, openings, sight)) return std::nullopt;
   const double yaw_sigma = kMapSigma_m / std::max(patch.length(), 0.3);
   const Eigen::Matrix2d covariance = Eigen::Vector2d(kMapSigma_m * kMapSigma_m, yaw_sigma * yaw_sigma).asDiagonal();
-  c.cost_nats = AssessMixture(residual, covariance, options).cost_nats - std::log(std::max(ExplainedRatio(patch, surface), kLeastExplained));
+  c.cost_nats =
+      AssessMixture(residual, covariance, options).cost_nats - std::log(std::max(ExplainedRatio(patch, surface), kLeastExplained));
   return c;
 }
 

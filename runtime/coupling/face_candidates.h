@@ -35,6 +35,7 @@ struct FaceCandidate {
 
 // In the faces' order. `known`: by wall, may be shorter. O(faces).
 [[nodiscard]] std::vector<FaceCandidate> CandidatesOf(const Patch& patch, const std::vector<PlannedFace>& faces, const SightLines& sight,
-                                                  const std::vector<WallDeviation>& known, double max_offset_m, const CouplingOptions& options);
+                                                      const std::vector<WallDeviation>& known, double max_offset_m,
+                                                      const CouplingOptions& options);
 
 }  // namespace plumb::runtime

@@ -8,7 +8,8 @@
 
 namespace plumb::runtime {
 
-std::array<MixtureComponent, 4> MixtureComponents(const Eigen::Vector2d& measured, const Eigen::Matrix2d& covariance, const CouplingOptions& options) {
+std::array<MixtureComponent, 4> MixtureComponents(const Eigen::Vector2d& measured, const Eigen::Matrix2d& covariance,
+                                                  const CouplingOptions& options) {
   std::array<MixtureComponent, 4> out;
   double highest = -1e300;
   for (size_t k = 0; k < 4; ++k) {
@@ -16,12 +17,15 @@ std::array<MixtureComponent, 4> MixtureComponents(const Eigen::Vector2d& measure
     c.offset_is_wide = k >= 2;
     c.yaw_is_wide = k % 2 == 1;
     c.deviates = k > 0;
-    c.prior_variance = Eigen::Vector2d(c.offset_is_wide ? options.offset_tau1_m : options.offset_tau0_m, c.yaw_is_wide ? options.yaw_tau1_rad : options.yaw_tau0_rad).cwiseAbs2();
+    c.prior_variance = Eigen::Vector2d(c.offset_is_wide ? options.offset_tau1_m : options.offset_tau0_m,
+                                       c.yaw_is_wide ? options.yaw_tau1_rad : options.yaw_tau0_rad)
+                           .cwiseAbs2();
     c.total_covariance = covariance;
     c.total_covariance.diagonal() += c.prior_variance;
     const double weight = c.deviates ? options.deviated_ratio / 3.0 : 1.0 - options.deviated_ratio;
     const Eigen::Matrix2d& s = c.total_covariance;
-    c.log_density = std::log(weight) - 0.5 * (measured.dot(s.inverse() * measured) + std::log(s.determinant())) - std::log(2 * std::numbers::pi);
+    c.log_density =
+        std::log(weight) - 0.5 * (measured.dot(s.inverse() * measured) + std::log(s.determinant())) - std::log(2 * std::numbers::pi);
     highest = std::max(highest, c.log_density);
   }
   double sum = 0;
@@ -33,7 +37,8 @@ std::array<MixtureComponent, 4> MixtureComponents(const Eigen::Vector2d& measure
 Responsibilities AssessMixture(const Eigen::Vector2d& measured, const Eigen::Matrix2d& covariance, const CouplingOptions& options) {
   const std::array<MixtureComponent, 4> k = MixtureComponents(measured, covariance, options);
   // Any case gives the density of all of them; the likeliest best.
-  const MixtureComponent& best = *std::max_element(k.begin(), k.end(), [](const auto& a, const auto& b) { return a.probability < b.probability; });
+  const MixtureComponent& best =
+      *std::max_element(k.begin(), k.end(), [](const auto& a, const auto& b) { return a.probability < b.probability; });
   return {k[2].probability + k[3].probability, k[1].probability + k[3].probability, k[1].probability + k[2].probability + k[3].probability,
           std::log(best.probability) - best.log_density};
 }

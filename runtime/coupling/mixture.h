@@ -27,7 +27,8 @@ struct MixtureComponent {
 
 // Of a measured deviation (offset_m, yaw_rad) with the measurement's covariance, before any prior. Four components: {as planned, deviated}
 // for the offset times the same for the yaw; `deviated_ratio` is shared equally by the three that deviate.
-[[nodiscard]] Responsibilities AssessMixture(const Eigen::Vector2d& measured, const Eigen::Matrix2d& covariance, const CouplingOptions& options);
+[[nodiscard]] Responsibilities AssessMixture(const Eigen::Vector2d& measured, const Eigen::Matrix2d& covariance,
+                                             const CouplingOptions& options);
 
 // Expected inverse prior variances (offset, yaw) given the responsibilities: what the M step weights the deviation with.
 [[nodiscard]] Eigen::Vector2d PriorInformation(const Responsibilities& r, const CouplingOptions& options);

@@ -16,7 +16,8 @@ constexpr double kEdge_m = 0.3;
 
 }  // namespace
 
-SightLines::SightLines(const SGraph& map, const Eigen::Isometry3d& T_plan_map) : origin_(T_plan_map.translation()), vertical_edge_m_(map.planar ? 0 : kEdge_m) {
+SightLines::SightLines(const SGraph& map, const Eigen::Isometry3d& T_plan_map)
+    : origin_(T_plan_map.translation()), vertical_edge_m_(map.planar ? 0 : kEdge_m) {
   for (const Keyframe& keyframe : map.keyframes) {
     if (keyframe.merged) continue;
     const Eigen::Isometry3f T = (Eigen::Translation3d(-origin_) * T_plan_map * keyframe.T_map_kf).cast<float>();
@@ -36,7 +37,9 @@ SightLines::Count SightLines::Meeting(const SupposedFace& face) const {
     if (from < kMinFront_m || to > kOn_m) continue;
     const Eigen::Vector3f at = line.from + from / (from - to) * (line.to - line.from);
     const double u = origin + along.dot(at.head<2>().cast<double>()), z_m = origin_.z() + at.z();
-    if (u < start + kEdge_m || u > start + planned.length_m() - kEdge_m || z_m < planned.z_min_m + vertical_edge_m_ || z_m > planned.z_max_m - vertical_edge_m_) continue;
+    if (u < start + kEdge_m || u > start + planned.length_m() - kEdge_m || z_m < planned.z_min_m + vertical_edge_m_ ||
+        z_m > planned.z_max_m - vertical_edge_m_)
+      continue;
     if (InOpening(*face.openings, along, u, z_m, kEdge_m)) continue;
     if (to > -kOn_m) ++count.ended;
     if (to < -kBeyond_m) ++count.passed;

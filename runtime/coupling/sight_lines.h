@@ -34,7 +34,8 @@ class SightLines {
   struct Line {
     Eigen::Vector3f from, to;
   };
-  Eigen::Vector3d origin_ = Eigen::Vector3d::Zero();  // of the lines, plan frame: single precision is too coarse at a georeferenced plan's coordinates
+  Eigen::Vector3d origin_ =
+      Eigen::Vector3d::Zero();  // of the lines, plan frame: single precision is too coarse at a georeferenced plan's coordinates
   std::vector<Line> lines_;
   double vertical_edge_m_ = 0;  // this close to the face's top and bottom a line may pass it
 };

@@ -19,9 +19,11 @@ struct WallOpening {
 [[nodiscard]] std::vector<std::vector<WallOpening>> OpeningsOfWalls(const AGraph& plan);
 
 // Is a point of the wall within `margin_m` of an opening? `at` is its coordinate along the unit vector `along`, which runs along the wall.
-[[nodiscard]] inline bool InOpening(const std::vector<WallOpening>& openings, const Eigen::Vector2d& along, double at, double z_m, double margin_m) {
+[[nodiscard]] inline bool InOpening(const std::vector<WallOpening>& openings, const Eigen::Vector2d& along, double at, double z_m,
+                                    double margin_m) {
   for (const WallOpening& o : openings) {
-    if (std::abs(at - along.dot(o.middle)) < 0.5 * o.width_m + margin_m && z_m > o.z_min_m - margin_m && z_m < o.z_max_m + margin_m) return true;
+    if (std::abs(at - along.dot(o.middle)) < 0.5 * o.width_m + margin_m && z_m > o.z_min_m - margin_m && z_m < o.z_max_m + margin_m)
+      return true;
   }
   return false;
 }

@@ -21,8 +21,8 @@ std::vector<Patch> WallPatches(const SGraph& map, const Eigen::Isometry3d& T_pla
     if (s.observations.size() < 2 && s.area_m2 < kMinSingleArea_m2) continue;
     const Eigen::Vector3d start = T_plan_map * Eigen::Vector3d(s.start.x(), s.start.y(), s.z_min_m);
     const Eigen::Vector3d end = T_plan_map * Eigen::Vector3d(s.end.x(), s.end.y(), s.z_max_m);
-    patches.push_back({static_cast<uint32_t>(i), s.observations.size(), start.head<2>(), end.head<2>(), T_plan_map.linear() * s.plane.n, start.z(), end.z(),
-                       T_plan_map.translation().z(), s.area_m2, &s.cells});
+    patches.push_back({static_cast<uint32_t>(i), s.observations.size(), start.head<2>(), end.head<2>(), T_plan_map.linear() * s.plane.n,
+                       start.z(), end.z(), T_plan_map.translation().z(), s.area_m2, &s.cells});
   }
   return patches;
 }
@@ -51,8 +51,9 @@ double ExplainedRatio(const Patch& patch, const Surface& surface) {
     const double to = from + per_metre * patch.length();
     return std::max(0.0, std::min(surface.length_m(), std::max(from, to)) - std::max(0.0, std::min(from, to))) / patch.length();
   }
-  const auto num = std::count_if(patch.cells->begin(), patch.cells->end(),
-                                 [&](const Eigen::Vector2f& c) { return std::abs(from + per_metre * c.x() - 0.5 * surface.length_m()) < 0.5 * surface.length_m() + margin_m; });
+  const auto num = std::count_if(patch.cells->begin(), patch.cells->end(), [&](const Eigen::Vector2f& c) {
+    return std::abs(from + per_metre * c.x() - 0.5 * surface.length_m()) < 0.5 * surface.length_m() + margin_m;
+  });
   return static_cast<double>(num) / static_cast<double>(patch.cells->size());
 }
 

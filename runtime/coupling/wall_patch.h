@@ -39,6 +39,7 @@ struct Patch {
 [[nodiscard]] double ExplainedRatio(const Patch& patch, const Surface& surface);
 
 // Would a wall in the patch's plane stand in the way of what was seen?
-[[nodiscard]] bool IsSeenThrough(const Patch& patch, const Surface& surface, const std::vector<WallOpening>& openings, const SightLines& sight);
+[[nodiscard]] bool IsSeenThrough(const Patch& patch, const Surface& surface, const std::vector<WallOpening>& openings,
+                                 const SightLines& sight);
 
 }  // namespace plumb::runtime

@@ -35,11 +35,13 @@ WallDeviation DeviationOf(const Patch& patch, const Face& face, double yaw_rad) 
 
 class Search {
  public:
-  Search(const std::vector<WallFrame>& frames, const std::vector<std::vector<WallOpening>>& openings, const SightLines& sight, const CouplingOptions& options)
+  Search(const std::vector<WallFrame>& frames, const std::vector<std::vector<WallOpening>>& openings, const SightLines& sight,
+         const CouplingOptions& options)
       : frames_(frames), openings_(openings), sight_(sight), options_(options) {}
 
   [[nodiscard]] std::optional<Found> Compare(size_t index, const Patch& patch, const Surface& surface) const {
-    if (patch.num_observations < kMinObservations || patch.area < kMinArea_m2 || patch.z_max < surface.z_min_m + kMinReach_m) return std::nullopt;
+    if (patch.num_observations < kMinObservations || patch.area < kMinArea_m2 || patch.z_max < surface.z_min_m + kMinReach_m)
+      return std::nullopt;
     const Eigen::Vector3d& n = surface.normal;
     const double yaw = std::atan2(n.x() * patch.normal.y() - n.y() * patch.normal.x(), n.head<2>().dot(patch.normal.head<2>()));
     if (std::abs(yaw) > options_.far_yaw_rad) return std::nullopt;
@@ -47,7 +49,8 @@ class Search {
     const Eigen::Vector2d along = (surface.end - surface.start).normalized();
     const double a0 = along.dot(patch.start - surface.start), a1 = along.dot(patch.end - surface.start);
     const double from = std::max(0.0, std::min(a0, a1)), to = std::min(surface.length_m(), std::max(a0, a1));
-    if (to - from < kMinLength_m || OverlapRatio(std::min(a0, a1), std::max(a0, a1), 0, surface.length_m()) < kMinOverlapRatio) return std::nullopt;
+    if (to - from < kMinLength_m || OverlapRatio(std::min(a0, a1), std::max(a0, a1), 0, surface.length_m()) < kMinOverlapRatio)
+      return std::nullopt;
     const double explained = ExplainedRatio(patch, surface);
     if (explained < kMinExplained) return std::nullopt;
     // Gated where the two overlap: at the wall's far end a turn adds to it.
@@ -67,8 +70,11 @@ class Search {
     if (IsSeenThrough(patch, surface, openings, sight_)) return false;
     const SightLines::Count here = sight_.Meeting({patch.midpoint(), patch.normal.head<2>().normalized(), &surface, &openings});
     if (here.ended < kMinLines) return false;
-    const SightLines::Count planned = sight_.Meeting({0.5 * (surface.start + surface.end), surface.normal.head<2>().normalized(), &surface, &openings});
-    if (planned.passed >= kMinLines && static_cast<double>(planned.passed) >= kMinPassedRatio * static_cast<double>(planned.passed + planned.ended)) return true;
+    const SightLines::Count planned =
+        sight_.Meeting({0.5 * (surface.start + surface.end), surface.normal.head<2>().normalized(), &surface, &openings});
+    if (planned.passed >= kMinLines &&
+        static_cast<double>(planned.passed) >= kMinPassedRatio * static_cast<double>(planned.passed + planned.ended))
+      return true;
     const bool closes = overlap_m >= kMinClosed * surface.length_m() && patch.z_max >= surface.z_max_m - kBelowTop_m;
     return closes && here.passed == 0 && planned.passed + planned.ended == 0;
   }

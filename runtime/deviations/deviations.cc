@@ -28,7 +28,8 @@ double MinimalDetectable_m(double variance_m2) {
 }
 
 double TestVariance_m2(const WallEstimate& wall, const Eigen::Vector2d& gain, const DeviationOptions& options) {
-  return gain.dot(wall.evidence.covariance * gain) + wall.place_sigma_m * wall.place_sigma_m + options.tolerance_offset_m * options.tolerance_offset_m;
+  return gain.dot(wall.evidence.covariance * gain) + wall.place_sigma_m * wall.place_sigma_m +
+         options.tolerance_offset_m * options.tolerance_offset_m;
 }
 
 // Which hypotheses are rejected at the given false discovery rate.
@@ -76,7 +77,8 @@ SurfaceDeviation DeviationOfFace(const Face& face, const WallEstimate& wall, con
   BuiltPlane(face, parameters, &built.n, &built.d);
   const FaceDeviation d = CompareToPlan(face, built);
   // First order: how the displacement at the face's midpoint follows from the wall's parameters. Tilt acts at half height: not at all.
-  const Eigen::Vector4d gain(face.wall_normal.dot(face.normal), face.normal.dot(Eigen::Vector3d::UnitZ().cross(face.point - face.pivot)), 0, 0.5);
+  const Eigen::Vector4d gain(face.wall_normal.dot(face.normal), face.normal.dot(Eigen::Vector3d::UnitZ().cross(face.point - face.pivot)), 0,
+                             0.5);
   SurfaceDeviation out;
   out.translation_m = d.offset_m;
   out.rotation_rad = d.yaw_rad;
@@ -114,7 +116,8 @@ std::string CountsText(const AGraph& plan, const DeviationReport& report) {
   }
   const auto count = [&](SurfaceStatus status) { return std::count(gravest.begin(), gravest.end(), status); };
   const auto deviated = count(SurfaceStatus::kDeviated), missing = count(SurfaceStatus::kMissing);
-  std::string text = fmt::format(" {} of {} seen walls {}", deviated, deviated + count(SurfaceStatus::kAsPlanned), deviated == 1 ? "deviates" : "deviate");
+  std::string text =
+      fmt::format(" {} of {} seen walls {}", deviated, deviated + count(SurfaceStatus::kAsPlanned), deviated == 1 ? "deviates" : "deviate");
   if (missing > 0) text += fmt::format(", {} {} missing", missing, missing == 1 ? "is" : "are");
   return text + ".";
 }
@@ -135,7 +138,8 @@ std::string DeviationOptions::Check() const {
   if (!(false_discovery_rate > 0 && false_discovery_rate < 1)) {
     return fmt::format("DeviationOptions.false_discovery_rate = {}; must be in (0, 1)", false_discovery_rate);
   }
-  if (!(min_p_deviated >= 0 && min_p_deviated <= 1)) return fmt::format("DeviationOptions.min_p_deviated = {}; must be in [0, 1]", min_p_deviated);
+  if (!(min_p_deviated >= 0 && min_p_deviated <= 1))
+    return fmt::format("DeviationOptions.min_p_deviated = {}; must be in [0, 1]", min_p_deviated);
   const std::pair<const char*, double> magnitudes[] = {{"tolerance_offset_m", tolerance_offset_m}, {"tolerance_yaw_rad", tolerance_yaw_rad},
       {"min_offset_m", min_offset_m}, {"min_yaw_rad", min_yaw_rad}, {"min_observed_m2", min_observed_m2}, {"max_mdb_m", max_mdb_m},
       {"max_undecided_m", max_undecided_m}};
@@ -146,7 +150,8 @@ std::string DeviationOptions::Check() const {
   return unplanned.Check();
 }
 
-DeviationReport AssessDeviations(const AGraph& plan, const JointResult& estimate, const DeviationOptions& options, const WallChanges& changes) {
+DeviationReport AssessDeviations(const AGraph& plan, const JointResult& estimate, const DeviationOptions& options,
+                                 const WallChanges& changes) {
   DeviationReport report;
   report.gauge = estimate.gauge;
   report.surfaces.resize(plan.surfaces.size());

@@ -63,15 +63,18 @@ struct WallChanges {
   std::vector<WallPresence> presence;  // per plan wall; empty: not judged
   std::vector<UnplannedWall> unplanned;
   std::vector<bool> shape_as_planned = {};  // per plan wall (planned_shapes.h); empty: not judged
-  [[nodiscard]] bool IsMissing(WallId wall) const { return wall.valid() && wall.index() < presence.size() && presence[wall.index()].missing; }
+  [[nodiscard]] bool IsMissing(WallId wall) const {
+    return wall.valid() && wall.index() < presence.size() && presence[wall.index()].missing;
+  }
 };
 
 // Every face of a wall carries the wall's deviation, moved to the face's own midpoint and normal, plus its share of the thickness, and the
 // wall's status; ends of walls and curved surfaces stay unobserved. A wall deviates if Benjamini-Hochberg rejects "as planned" on the
-// chi-square (2 dof) of its evidence of (offset, yaw) plus tolerance, and it exceeds a minimum magnitude, and p_deviated is high. Where neither it nor a
-// deviation of max_mdb_m could have been told, or what was seen leaves one of max_undecided_m possible, the wall is unobserved, however much of it was seen.
-// So is a wall off its face whose shape is as planned: what was seen there is in the plan, but is not this face.
-// The faces of a wall that `changes` calls missing are missing, whatever the estimate. The gauge says how many walls deviate and are missing.
+// chi-square (2 dof) of its evidence of (offset, yaw) plus tolerance, and it exceeds a minimum magnitude, and p_deviated is high. Where
+// neither it nor a deviation of max_mdb_m could have been told, or what was seen leaves one of max_undecided_m possible, the wall is
+// unobserved, however much of it was seen. So is a wall off its face whose shape is as planned: what was seen there is in the plan, but is
+// not this face. The faces of a wall that `changes` calls missing are missing, whatever the estimate. The gauge says how many walls deviate
+// and are missing.
 [[nodiscard]] DeviationReport AssessDeviations(const AGraph& plan, const JointResult& estimate, const DeviationOptions& options = {},
                                                const WallChanges& changes = {});
 

@@ -17,8 +17,8 @@ constexpr size_t kParts = 3, kMinCells = 4;
 constexpr size_t kMaxCells = 300;          // of one surface: enough to tell
 
 // Signed distances from what was seen to the plan's triangles, of the parts of a map surface along its length.
-std::array<std::vector<double>, kParts> DistancesToPlan(const MapSurface& seen, const Eigen::Isometry3d& T_plan_map, const RayCaster& caster,
-                                                        const Eigen::Vector3d& origin) {
+std::array<std::vector<double>, kParts> DistancesToPlan(const MapSurface& seen, const Eigen::Isometry3d& T_plan_map,
+                                                        const RayCaster& caster, const Eigen::Vector3d& origin) {
   std::array<std::vector<double>, kParts> out;
   const Eigen::Vector2d along = (seen.end - seen.start).normalized();
   const Eigen::Vector3d n = T_plan_map.linear() * seen.plane.n;

@@ -13,6 +13,7 @@ namespace plumb::runtime {
 
 // Per plan wall: most of what `matches` give it lies on triangles of the plan, all along. Walls that nothing was matched to: false.
 // O(cells of the matched surfaces * log triangles).
-[[nodiscard]] std::vector<bool> ShapesAsPlanned(const SGraph& map, const AGraph& plan, const std::vector<Match>& matches, const JointResult& estimate);
+[[nodiscard]] std::vector<bool> ShapesAsPlanned(const SGraph& map, const AGraph& plan, const std::vector<Match>& matches,
+                                                const JointResult& estimate);
 
 }  // namespace plumb::runtime

@@ -26,7 +26,8 @@ double Distance(const Wall& wall, const Panel& panel) {
   const double from = std::min(axis.U(panel.start), axis.U(end)), to = std::max(axis.U(panel.start), axis.U(end));
   if (std::min(to, axis.length_m) - std::max(from, 0.0) < kMinOverlap * std::min(to - from, axis.length_m)) return kFar_m;
   const double at_panel_m = std::abs(axis.W(0.5 * (panel.start + end)));
-  const double at_wall_m = std::abs(panel.W(0.5 * (wall.axis_start + wall.axis_end))) / cos_turn;  // along the wall's normal, as deviations are
+  const double at_wall_m =
+      std::abs(panel.W(0.5 * (wall.axis_start + wall.axis_end))) / cos_turn;  // along the wall's normal, as deviations are
   return std::max(0.0, std::min(at_panel_m, at_wall_m) - 0.5 * wall.thickness_m);
 }
 

@@ -15,7 +15,8 @@ constexpr double kMinSupport_m = 0.3;  // least length of wall seen along each o
 
 }  // namespace
 
-RoomDeviation DeviationOfRoom(const AGraph& plan, RoomId id, const std::vector<SurfaceDeviation>& surfaces, const DeviationOptions& options) {
+RoomDeviation DeviationOfRoom(const AGraph& plan, RoomId id, const std::vector<SurfaceDeviation>& surfaces,
+                              const DeviationOptions& options) {
   const Room& room = plan.rooms[id.index()];
   RoomDeviation out;
   out.room = id;
@@ -60,7 +61,8 @@ RoomDeviation DeviationOfRoom(const AGraph& plan, RoomId id, const std::vector<S
   out.translation_m = motion.head<2>();
   out.rotation_rad = motion.z();
   out.sigma_m = std::sqrt(0.5 * variance);
-  const bool moved = out.translation_m.norm() >= std::max(options.min_offset_m, 3 * out.sigma_m) || std::abs(out.rotation_rad) >= options.min_yaw_rad;
+  const bool moved =
+      out.translation_m.norm() >= std::max(options.min_offset_m, 3 * out.sigma_m) || std::abs(out.rotation_rad) >= options.min_yaw_rad;
   out.status = any_deviated && moved ? SurfaceStatus::kDeviated : SurfaceStatus::kAsPlanned;
   return out;
 }

@@ -68,7 +68,8 @@ bool StandingWalls::InTheWay(const Sight& sight) {
     if (!Meet(panel, sight, &m) || m.from_m < kThrough_m || m.to_m > -kThrough_m || !panel.Covers(m.u, m.z, -kEdge_m)) continue;
     bool in_doorway = false;
     for (const Doorway* d : doorways_[walls_[i].index()]) {
-      in_doorway |= std::abs(m.u - panel.U(d->position.head<2>())) < 0.5 * d->width_m + kDoorway_m && m.z < d->position.z() + d->height_m + kDoorway_m;
+      in_doorway |= std::abs(m.u - panel.U(d->position.head<2>())) < 0.5 * d->width_m + kDoorway_m &&
+                    m.z < d->position.z() + d->height_m + kDoorway_m;
     }
     if (!in_doorway) return true;
   }

@@ -17,7 +17,8 @@ class StandingWalls {
   // The walls on whose built faces the point lies, each as often as faces of it are near.
   void At(const Eigen::Vector3d& p, std::vector<WallId>& out);
 
-  // Does the line go through a wall that stands, away from its doorways? That is no line of sight but one that was mirrored, or went through a pane.
+  // Does the line go through a wall that stands, away from its doorways? That is no line of sight but one that was mirrored, or went
+  // through a pane.
   [[nodiscard]] bool InTheWay(const Sight& sight);
 
  private:

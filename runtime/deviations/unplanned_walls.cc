@@ -51,9 +51,16 @@ Panel CentreLine(const UnplannedWall& wall) {
 
 class Search {
  public:
-  Search(const SGraph& map, const AGraph& plan, const std::vector<Match>& matches, const JointResult& estimate, const UnplannedOptions& options)
-      : map_(map), plan_(plan), options_(options), T_plan_map_(estimate.T_plan_map), caster_(plan.mesh), standing_(plan, estimate, kMinStanding_m2),
-        planned_(plan, matches), faces_(UnmatchedFaces(map, matches, T_plan_map_)) {}
+  Search(const SGraph& map, const AGraph& plan, const std::vector<Match>& matches, const JointResult& estimate,
+         const UnplannedOptions& options)
+      : map_(map),
+        plan_(plan),
+        options_(options),
+        T_plan_map_(estimate.T_plan_map),
+        caster_(plan.mesh),
+        standing_(plan, estimate, kMinStanding_m2),
+        planned_(plan, matches),
+        faces_(UnmatchedFaces(map, matches, T_plan_map_)) {}
 
   std::vector<UnplannedWall> Run() {
     std::erase_if(faces_, [&](WallCandidate& c) { return !CouldBeWall(c); });
@@ -193,11 +200,15 @@ class Search {
     Panel middle = front.panel;
     if (back) middle.start += 0.5 * front.panel.W(back->panel.start + 0.5 * back->panel.length_m * back->panel.along) * front.panel.normal;
     if (planned_.MayBeUnmatchedOne(middle, options_.wall_gate_m)) return false;
-    const auto as_high_as_walls = [&](const WallCandidate& c) { return LengthAbove(c, c.required_top_m) >= std::max(options_.min_length_m, 0.5 * c.panel.length_m); };
+    const auto as_high_as_walls = [&](const WallCandidate& c) {
+      return LengthAbove(c, c.required_top_m) >= std::max(options_.min_length_m, 0.5 * c.panel.length_m);
+    };
     if (as_high_as_walls(front) || (back && as_high_as_walls(*back))) return true;
     if (!back) return false;
     const double seen_m = plan_.rooms[front.room.index()].floor_z_m + options_.min_seen_height_m;
-    const auto seen_high = [&](const WallCandidate& c) { return LengthAbove(c, seen_m) >= std::max(options_.min_length_m, 0.5 * c.panel.length_m); };
+    const auto seen_high = [&](const WallCandidate& c) {
+      return LengthAbove(c, seen_m) >= std::max(options_.min_length_m, 0.5 * c.panel.length_m);
+    };
     const auto seen_over = [&](const WallCandidate& c) { return static_cast<double>(c.over) > kMaxOver * static_cast<double>(c.ended); };
     const double thickness_m = -front.panel.W(back->panel.start + 0.5 * back->panel.length_m * back->panel.along);
     return thickness_m <= options_.max_thin_m && (seen_high(front) || seen_high(*back)) && !seen_over(front) && !seen_over(*back);
@@ -230,13 +241,16 @@ class Search {
 }  // namespace
 
 std::string UnplannedOptions::Check() const {
-  const std::pair<const char*, double> positive[] = {{"min_length_m", min_length_m}, {"below_ceiling_m", below_ceiling_m}, {"min_height_m", min_height_m},
-      {"min_seen_height_m", min_seen_height_m}, {"max_bottom_m", max_bottom_m}, {"max_thickness_m", max_thickness_m}, {"max_thin_m", max_thin_m},
-      {"single_thickness_m", single_thickness_m}, {"plan_gate_m", plan_gate_m}, {"wall_gate_m", wall_gate_m}};
+  const std::pair<const char*, double> positive[] = {{"min_length_m", min_length_m}, {"below_ceiling_m", below_ceiling_m},
+                                                     {"min_height_m", min_height_m}, {"min_seen_height_m", min_seen_height_m},
+                                                     {"max_bottom_m", max_bottom_m}, {"max_thickness_m", max_thickness_m},
+                                                     {"max_thin_m", max_thin_m},     {"single_thickness_m", single_thickness_m},
+                                                     {"plan_gate_m", plan_gate_m},   {"wall_gate_m", wall_gate_m}};
   for (const auto& [name, value] : positive) {
     if (!(value > 0 && std::isfinite(value))) return fmt::format("UnplannedOptions.{} = {}; must be a positive number", name, value);
   }
-  if (!(max_passed_ratio >= 0 && max_passed_ratio <= 1)) return fmt::format("UnplannedOptions.max_passed_ratio = {}; must be in [0, 1]", max_passed_ratio);
+  if (!(max_passed_ratio >= 0 && max_passed_ratio <= 1))
+    return fmt::format("UnplannedOptions.max_passed_ratio = {}; must be in [0, 1]", max_passed_ratio);
   if (min_keyframes < 1) return fmt::format("UnplannedOptions.min_keyframes = {}; must be >= 1", min_keyframes);
   return {};
 }
@@ -251,8 +265,8 @@ bool SameWall(const UnplannedWall& a, const UnplannedWall& b) {
   return std::max(from, to) > 0 && std::min(from, to) < longer.length_m;
 }
 
-std::vector<UnplannedWall> FindUnplannedWalls(const SGraph& map, const AGraph& plan, const std::vector<Match>& matches, const JointResult& estimate,
-                                              const UnplannedOptions& options) {
+std::vector<UnplannedWall> FindUnplannedWalls(const SGraph& map, const AGraph& plan, const std::vector<Match>& matches,
+                                              const JointResult& estimate, const UnplannedOptions& options) {
   if (map.planar) return {};
   return Search(map, plan, matches, estimate, options).Run();
 }

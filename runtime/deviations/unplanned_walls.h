@@ -15,8 +15,8 @@ struct UnplannedOptions {
   double min_length_m = 1.0;
   double below_ceiling_m = 0.3;       // a wall reaches to this far below the ceiling seen there, ...
   double min_height_m = 2.2;          // ... or, where none was seen, as high above the floor: above the tallest furniture
-  // Both faces of a thin wall were seen, but its top was out of the sensor's sight: then one face seen so high is enough if no line of sight goes
-  // over either.
+  // Both faces of a thin wall were seen, but its top was out of the sensor's sight: then one face seen so high is enough if no line of
+  // sight goes over either.
   double min_seen_height_m = 1.4;
   double max_bottom_m = 0.5;          // above the floor: a wall stands on it
   double max_thickness_m = 0.5;       // between the faces of one wall, ...
@@ -38,9 +38,9 @@ struct UnplannedWall {
 // Two findings of one wall, each of which may be of a part of it: along one line, to 10 degrees and 25 cm, and beside each other.
 [[nodiscard]] bool SameWall(const UnplannedWall& a, const UnplannedWall& b);
 
-// Only what stands in rooms of the plan: of what is outside, the plan says nothing. What may be furniture, the reflection in a mirror or pane, or a
-// planned wall that was not recognized is left out: also what the nearest planned wall may be that nothing was matched to. None in a map of a planar laser. In the order of map surfaces.
-// O(map surfaces^2 + keyframe points * surfaces passed). Deterministic.
+// Only what stands in rooms of the plan: of what is outside, the plan says nothing. What may be furniture, the reflection in a mirror or
+// pane, or a planned wall that was not recognized is left out: also what the nearest planned wall may be that nothing was matched to. None
+// in a map of a planar laser. In the order of map surfaces. O(map surfaces^2 + keyframe points * surfaces passed). Deterministic.
 [[nodiscard]] std::vector<UnplannedWall> FindUnplannedWalls(const SGraph& map, const AGraph& plan, const std::vector<Match>& matches,
                                                             const JointResult& estimate, const UnplannedOptions& options = {});
 

@@ -60,7 +60,8 @@ void Append(const WallCandidate& b, WallCandidate* a) {
   std::vector<double> top_m(static_cast<size_t>(std::ceil((to - from) / kColumn_m)), kUnseen);
   const auto put = [&](const std::vector<double>& tops, double at) {
     for (size_t i = 0; i < tops.size(); ++i) {
-      const auto column = static_cast<size_t>(std::clamp((at - from) / kColumn_m + static_cast<double>(i), 0.0, static_cast<double>(top_m.size()) - 1));
+      const auto column =
+          static_cast<size_t>(std::clamp((at - from) / kColumn_m + static_cast<double>(i), 0.0, static_cast<double>(top_m.size()) - 1));
       top_m[column] = std::max(top_m[column], tops[i]);
     }
   };
@@ -83,7 +84,8 @@ std::vector<WallCandidate> UnmatchedFaces(const SGraph& map, const std::vector<M
   std::vector<WallCandidate> faces;
   for (size_t i = 0; i < map.surfaces.size(); ++i) {
     const MapSurface& s = map.surfaces[i];
-    if (s.kind == SurfaceKind::kWall && !s.observations.empty() && s.length_m() > kColumn_m && !matched.contains(static_cast<uint32_t>(i))) {
+    if (s.kind == SurfaceKind::kWall && !s.observations.empty() && s.length_m() > kColumn_m &&
+        !matched.contains(static_cast<uint32_t>(i))) {
       faces.push_back(CandidateOf(s, T_plan_map));
     }
   }

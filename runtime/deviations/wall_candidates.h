@@ -26,7 +26,8 @@ struct WallCandidate {
 };
 
 // What matched nothing, in pieces as long as they go; the largest first. Plan frame. O(map surfaces^2).
-[[nodiscard]] std::vector<WallCandidate> UnmatchedFaces(const SGraph& map, const std::vector<Match>& matches, const Eigen::Isometry3d& T_plan_map);
+[[nodiscard]] std::vector<WallCandidate> UnmatchedFaces(const SGraph& map, const std::vector<Match>& matches,
+                                                        const Eigen::Isometry3d& T_plan_map);
 
 // Length of it that was seen up to the height.
 [[nodiscard]] double LengthAbove(const WallCandidate& candidate, double top_m);

@@ -45,7 +45,8 @@ struct FaceGrid {
 };
 
 bool IsOpaqueBody(const Element& e) {
-  return e.wall.valid() && e.kind != ElementKind::kDoor && e.kind != ElementKind::kWindow && e.material == Material::kOpaque && !e.doorway.valid();
+  return e.wall.valid() && e.kind != ElementKind::kDoor && e.kind != ElementKind::kWindow && e.material == Material::kOpaque &&
+         !e.doorway.valid();
 }
 
 // Marks the cells behind which the plan's own triangles are wall, and no opening is listed.
@@ -104,7 +105,8 @@ class PlannedThings {
     std::vector<bool> keep(plan.mesh.triangles.size());
     for (size_t i = 0; i < keep.size(); ++i) {
       const Element& e = plan.elements[plan.mesh.triangles[i].element];
-      keep[i] = !e.wall.valid() && !e.doorway.valid() && e.kind != ElementKind::kWall && e.kind != ElementKind::kCurtainWall && e.kind != ElementKind::kCovering;
+      keep[i] = !e.wall.valid() && !e.doorway.valid() && e.kind != ElementKind::kWall && e.kind != ElementKind::kCurtainWall &&
+                e.kind != ElementKind::kCovering;
     }
     return keep;
   }
@@ -145,7 +147,8 @@ std::vector<FaceGrid> MakeGrids(const AGraph& plan, const PresenceOptions& optio
     for (int row = 0; row < g.rows; ++row) {
       for (int column = 0; column < g.columns; ++column) {
         Cell cell;
-        cell.solid = probe.IsSolid(s, g.panel, options.margin_m + (column + 0.5) * options.cell_m, g.z_low_m + (row + 0.5) * options.cell_m, reach_m);
+        cell.solid = probe.IsSolid(s, g.panel, options.margin_m + (column + 0.5) * options.cell_m, g.z_low_m + (row + 0.5) * options.cell_m,
+                                   reach_m);
         any = any || cell.solid;
         g.cells.push_back(cell);
       }
@@ -183,7 +186,8 @@ class Presence {
     for (const uint32_t i : near_) {
       FaceGrid& g = grids_[i];
       Meeting m;
-      if (!Meet(g.panel, sight, &m) || m.incidence < options_.min_incidence || m.sight_m > options_.max_sight_m || m.to_m > options_.gate_m) continue;
+      if (!Meet(g.panel, sight, &m) || m.incidence < options_.min_incidence || m.sight_m > options_.max_sight_m || m.to_m > options_.gate_m)
+        continue;
       Cell* cell = g.At(m.u, m.z, options_.margin_m);
       if (!cell) continue;
       if (!std::exchange(looked_up, true)) standing_.At(sight.to, on_);
@@ -257,24 +261,29 @@ class Presence {
 }  // namespace
 
 std::string PresenceOptions::Check() const {
-  const std::pair<const char*, double> positive[] = {{"gate_m", gate_m}, {"cell_m", cell_m}, {"max_sight_m", max_sight_m}, {"min_open_m2", min_open_m2}};
+  const std::pair<const char*, double> positive[] = {
+      {"gate_m", gate_m}, {"cell_m", cell_m}, {"max_sight_m", max_sight_m}, {"min_open_m2", min_open_m2}};
   for (const auto& [name, value] : positive) {
     if (!(value > 0 && std::isfinite(value))) return fmt::format("PresenceOptions.{} = {}; must be a positive number", name, value);
   }
   if (!(margin_m >= 0)) return fmt::format("PresenceOptions.margin_m = {}; must be >= 0", margin_m);
-  const std::pair<const char*, double> ratios[] = {{"min_incidence", min_incidence}, {"min_cell_ratio", min_cell_ratio}, {"min_open_ratio", min_open_ratio},
-      {"min_length_ratio", min_length_ratio}};
+  const std::pair<const char*, double> ratios[] = {{"min_incidence", min_incidence},
+                                                   {"min_cell_ratio", min_cell_ratio},
+                                                   {"min_open_ratio", min_open_ratio},
+                                                   {"min_length_ratio", min_length_ratio}};
   for (const auto& [name, value] : ratios) {
     if (!(value > 0 && value <= 1)) return fmt::format("PresenceOptions.{} = {}; must be in (0, 1]", name, value);
   }
-  const std::pair<const char*, int> counts[] = {{"min_lines", min_lines}, {"min_keyframes", min_keyframes}, {"min_wall_keyframes", min_wall_keyframes}};
+  const std::pair<const char*, int> counts[] = {
+      {"min_lines", min_lines}, {"min_keyframes", min_keyframes}, {"min_wall_keyframes", min_wall_keyframes}};
   for (const auto& [name, value] : counts) {
     if (value < 1) return fmt::format("PresenceOptions.{} = {}; must be >= 1", name, value);
   }
   return {};
 }
 
-std::vector<WallPresence> JudgePresence(const SGraph& map, const AGraph& plan, const JointResult& estimate, const PresenceOptions& options) {
+std::vector<WallPresence> JudgePresence(const SGraph& map, const AGraph& plan, const JointResult& estimate,
+                                        const PresenceOptions& options) {
   if (map.planar) return std::vector<WallPresence>(plan.walls.size());
   return Presence(map, plan, estimate, options).Run();
 }

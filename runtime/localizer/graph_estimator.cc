@@ -15,8 +15,8 @@
 namespace plumb::runtime {
 namespace {
 
-// Of a map's place by its rays. Where few walls are seen and one or two of them deviate, walls alone would lay the plan now on these, now on those.
-// Half of the walls that a planar laser sees are furniture, which may agree with each other better than with the walls.
+// Of a map's place by its rays. Where few walls are seen and one or two of them deviate, walls alone would lay the plan now on these, now
+// on those. Half of the walls that a planar laser sees are furniture, which may agree with each other better than with the walls.
 constexpr double kPlaceSigma_m = 0.1, kPlanarPlaceSigma_m = 0.05;
 
 constexpr int kMaxHeld = 10;  // keyframes in a row: a robot that nobody looks for is never found
@@ -134,7 +134,8 @@ struct GraphEstimator::Impl {
     Solution out;
     out.matches = MatchSurfaces(mapper.graph(), plan, T_plan_map, known, options.coupling);
     // Whatever stands where a wall is missing is not that wall.
-    std::erase_if(out.matches, [&](const Match& m) { return m.plan_surface.valid() && changes.IsMissing(plan.surfaces[m.plan_surface.index()].wall); });
+    std::erase_if(out.matches,
+                  [&](const Match& m) { return m.plan_surface.valid() && changes.IsMissing(plan.surfaces[m.plan_surface.index()].wall); });
     if (out.matches.empty()) return std::nullopt;
     JointOptions joint_options = SolverOptions();
     joint_options.covariances = covariances;
@@ -179,14 +180,15 @@ struct GraphEstimator::Impl {
     mapper.OnPosesChanged();
   }
 
-  // Between two solves over everything, which cost more the larger the map is, only the newest keyframes are laid on it; those of a planar laser
-  // stay where odometry has them.
+  // Between two solves over everything, which cost more the larger the map is, only the newest keyframes are laid on it; those of a planar
+  // laser stay where odometry has them.
   void Solve() {
     size_t kept = 0;
     for (const Keyframe& keyframe : mapper.graph().keyframes) kept += !keyframe.merged;
     if (static_cast<double>(num_keyframes - solved_all_at) >= options.solve_all_growth * static_cast<double>(kept)) return Optimize(false);
     if (mapper.graph().planar) return;
-    const std::vector<Eigen::Isometry3d> poses = OptimizeWindow(mapper.graph(), static_cast<size_t>(options.window_keyframes), SolverOptions());
+    const std::vector<Eigen::Isometry3d> poses =
+        OptimizeWindow(mapper.graph(), static_cast<size_t>(options.window_keyframes), SolverOptions());
     if (poses.empty()) return Optimize(false);
     std::vector<Keyframe>& keyframes = mapper.mutable_graph().keyframes;
     for (size_t i = 0; i < poses.size(); ++i) keyframes[keyframes.size() - poses.size() + i].T_map_kf = poses[i];

@@ -62,7 +62,8 @@ class GraphEstimator {
   GraphEstimator(const AGraph& plan, const LocalizerOptions& options);
   ~GraphEstimator();
 
-  // The next scan in time order. `hold`: map only; matching and solving, which cost most, wait for the first keyframe added without it, or for the tenth.
+  // The next scan in time order. `hold`: map only; matching and solving, which cost most, wait for the first keyframe added without it, or
+  // for the tenth.
   [[nodiscard]] GraphState Add(const RegisteredScan& scan, bool hold);
   // A final solve over everything, with covariances.
   void Finish();

@@ -24,7 +24,8 @@ std::string LocalizerOptions::Check() const {
   if (lost_after < 1) return "LocalizerOptions.lost_after = " + std::to_string(lost_after) + "; must be >= 1";
   if (derive_rooms_every < 1) return "LocalizerOptions.derive_rooms_every = " + std::to_string(derive_rooms_every) + "; must be >= 1";
   if (!(rival_margin_nats >= 0)) return "LocalizerOptions.rival_margin_nats = " + std::to_string(rival_margin_nats) + "; must be >= 0";
-  for (std::string fault : {odometry.Check(), mapper.Check(), matcher.Check(), graph_matcher.Check(), hint.Check(), coupling.Check(), joint.Check(), deviations.Check()}) {
+  for (std::string fault : {odometry.Check(), mapper.Check(), matcher.Check(), graph_matcher.Check(), hint.Check(), coupling.Check(),
+                            joint.Check(), deviations.Check()}) {
     if (!fault.empty()) return fault;
   }
   return {};

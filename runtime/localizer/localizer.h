@@ -24,8 +24,8 @@ struct ScanVerdict {
 // What a given odometry (any start frame) says of the lidar's motion during `scan`; none where it does not cover the sweep.
 [[nodiscard]] std::optional<Odometry::GivenMotion> GivenMotionDuring(const Scan& scan, const Trajectory& given_odometry);
 
-// Deterministic, whatever threads the matcher uses: the same scans give the same verdicts, poses and deviations. The steps of AddScan() share
-// no state, so that each may run on a thread of its own, as long as every one of them gets the scans in their order (replay.h,
+// Deterministic, whatever threads the matcher uses: the same scans give the same verdicts, poses and deviations. The steps of AddScan()
+// share no state, so that each may run on a thread of its own, as long as every one of them gets the scans in their order (replay.h,
 // online_localizer.h).
 class Localizer {
  public:
@@ -48,14 +48,15 @@ class Localizer {
   // See GraphEstimator::RequestUpdate. From any thread.
   void RequestUpdate() { graph_.RequestUpdate(); }
 
-  // Where the present map lies in the plan; none while it has no place there. A robot that sees nothing for a moment is lost, its map is not.
+  // Where the present map lies in the plan; none while it has no place there. A robot that sees nothing for a moment is lost, its map is
+  // not.
   [[nodiscard]] std::optional<Eigen::Isometry3d> T_plan_map() const;
   [[nodiscard]] const SGraph& map() const { return graph_.map(); }  // the present one
   [[nodiscard]] const MatchTry* last_try() const { return graph_.last_try(); }  // in the present map; null before the first
   [[nodiscard]] const JointResult& estimate() const { return graph_.estimate(); }
   [[nodiscard]] DeviationReport Deviations() const { return graph_.Deviations(); }
-  // Plan frame, with all knowledge so far: all scans that could be registered to the present map, if it lies in the plan, after those of maps
-  // that were given up because the robot was carried off (odometry.h: restarted).
+  // Plan frame, with all knowledge so far: all scans that could be registered to the present map, if it lies in the plan, after those of
+  // maps that were given up because the robot was carried off (odometry.h: restarted).
   [[nodiscard]] Trajectory SmoothedTrajectory() const;
 
  private:

@@ -36,7 +36,8 @@ struct LocalizerOptions {
   JointOptions joint;
   DeviationOptions deviations;
   UpdateSink on_update;              // updates while driving: those asked for and, ...
-  bool update_every_solve = false;   // ... of itself, after every solve of everything and when the verdict changes. Doubles the time of these solves
+  bool update_every_solve =
+      false;  // ... of itself, after every solve of everything and when the verdict changes. Doubles the time of these solves
   [[nodiscard]] std::string Check() const;  // empty, or the field, its value and the rule
 };
 

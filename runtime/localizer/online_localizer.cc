@@ -13,7 +13,10 @@ std::string OnlineOptions::Check() const {
 }
 
 OnlineLocalizer::OnlineLocalizer(const AGraph& plan, const LocalizerOptions& options, const OnlineOptions& online)
-    : options_(online), localizer_(plan, options), queue_(static_cast<size_t>(online.max_scans_behind)), graph_thread_([this] { RunGraph(); }) {}
+    : options_(online),
+      localizer_(plan, options),
+      queue_(static_cast<size_t>(online.max_scans_behind)),
+      graph_thread_([this] { RunGraph(); }) {}
 
 OnlineLocalizer::~OnlineLocalizer() {
   {

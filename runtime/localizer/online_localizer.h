@@ -24,8 +24,8 @@ struct OnlineCounts {
   size_t unmapped_scans = 0;  // their points are in no keyframe; they got a verdict and a pose as all others
 };
 
-// AddScan() never waits for the graph. Its verdict and pose rest on the graph's last finished state; how old that is depends on the machine, so
-// two runs are not equal to the last digit. Queue of registered scans: bounded, the drop rule is OnlineOptions.
+// AddScan() never waits for the graph. Its verdict and pose rest on the graph's last finished state; how old that is depends on the
+// machine, so two runs are not equal to the last digit. Queue of registered scans: bounded, the drop rule is OnlineOptions.
 class OnlineLocalizer {
  public:
   // `plan` must outlive it; both options must pass Check(). Starts the graph's thread.
@@ -35,8 +35,8 @@ class OnlineLocalizer {
   // The next scan in time order. The timing is odometry's only.
   [[nodiscard]] ScanVerdict AddScan(const Scan& scan, const std::optional<Odometry::GivenMotion>& given);
 
-  // After the last scan: waits until the graph has taken in all scans and ends its thread. The results are then the localizer's (with Finish()
-  // for a final solve).
+  // After the last scan: waits until the graph has taken in all scans and ends its thread. The results are then the localizer's (with
+  // Finish() for a final solve).
   [[nodiscard]] Localizer& Drain();
 
   // See GraphEstimator::RequestUpdate.

@@ -151,7 +151,8 @@ void ReplayOffline(const Recording& recording, const ReplayOptions& options, Loc
 
 namespace {
 
-void GiveAtPace(const Recording& recording, const ReplayOptions& options, OnlineLocalizer& localizer, const ReplaySink& sink, FirstException& failure) {
+void GiveAtPace(const Recording& recording, const ReplayOptions& options, OnlineLocalizer& localizer, const ReplaySink& sink,
+                FirstException& failure) {
   using Clock = std::chrono::steady_clock;
   BoundedQueue<ReadScan> read(kScansAhead);
   const std::jthread reading = StartReading(recording, ScansOf(recording, options), read, failure);
@@ -177,7 +178,8 @@ void GiveAtPace(const Recording& recording, const ReplayOptions& options, Online
 }  // namespace
 
 void ReplayPaced(const Recording& recording, const ReplayOptions& options, OnlineLocalizer& localizer, const ReplaySink& sink) {
-  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism, static_cast<size_t>(NumThreads(options.threads)));
+  const oneapi::tbb::global_control limit(oneapi::tbb::global_control::max_allowed_parallelism,
+                                          static_cast<size_t>(NumThreads(options.threads)));
   FirstException failure;
   GiveAtPace(recording, options, localizer, sink, failure);
   failure.Rethrow();

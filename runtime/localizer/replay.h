@@ -12,8 +12,10 @@
 namespace plumb::runtime {
 
 struct ReplayOptions {
-  int threads = 0;             // offline: 1 does one thing after another, 2 runs the graph beside the rest, more read ahead as well; 0: all the machine has
-  double rate = 0;             // 0: offline, as fast as it goes. Else times real time: a scan is given when its sweep has ended, and the graph gets what time there is
+  int threads =
+      0;  // offline: 1 does one thing after another, 2 runs the graph beside the rest, more read ahead as well; 0: all the machine has
+  double rate = 0;  // 0: offline, as fast as it goes. Else times real time: a scan is given when its sweep has ended, and the graph gets
+                    // what time there is
   double start_s = 0;          // leaves out this much of the recording at its beginning
   double max_duration_s = 0;   // stops after this much of the rest; 0: all of it
   bool given_odometry = true;  // use the recording's
@@ -33,9 +35,9 @@ struct ReplayedScan {
 // False ends the replay.
 using ReplaySink = std::function<bool(const ReplayedScan&)>;
 
-// Offline the results are the same to the last bit for any number of threads: odometry needs nothing of the graph, so each step works on the
-// scans in their order and only the steps overlap; the verdict on a scan waits for the graph to have taken in this very scan. At most a few
-// scans are between two steps. `sink` is called on the calling thread. The caller calls Finish().
+// Offline the results are the same to the last bit for any number of threads: odometry needs nothing of the graph, so each step works on
+// the scans in their order and only the steps overlap; the verdict on a scan waits for the graph to have taken in this very scan. At most a
+// few scans are between two steps. `sink` is called on the calling thread. The caller calls Finish().
 void ReplayOffline(const Recording& recording, const ReplayOptions& options, Localizer& localizer, const ReplaySink& sink);
 
 // At `options.rate`; decoding ahead. A scan that is late because odometry was busy is still given, later.

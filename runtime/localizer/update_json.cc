@@ -12,8 +12,8 @@ constexpr double kNews_m = 0.001, kNews_rad = 0.1 * std::numbers::pi / 180, kNew
 
 bool IsNews(const SurfaceDeviation& now, const SurfaceDeviation& told) {
   return now.status != told.status || std::abs(now.translation_m - told.translation_m) >= kNews_m ||
-         std::abs(now.sigma_translation_m - told.sigma_translation_m) >= kNews_m || std::abs(now.rotation_rad - told.rotation_rad) >= kNews_rad ||
-         std::abs(now.p_deviated - told.p_deviated) >= kNewsProbability;
+         std::abs(now.sigma_translation_m - told.sigma_translation_m) >= kNews_m ||
+         std::abs(now.rotation_rad - told.rotation_rad) >= kNews_rad || std::abs(now.p_deviated - told.p_deviated) >= kNewsProbability;
 }
 
 Json SurfaceEntry(const SurfaceDeviation& d) {

@@ -123,7 +123,9 @@ Squares Joined(const std::vector<Cell>& cells, const PlaneAxes& axes, double sig
 std::vector<Cell> LargestGroup(const std::vector<Cell>& cells, const PlaneAxes& axes) {
   VoxelIndex index;
   std::vector<Eigen::Vector2d> squares;
-  const auto at = [&](const Cell& cell) { return Eigen::Vector2d(axes.along.dot(cell.mean) / kMaxGap_m, axes.across.dot(cell.mean) / kMaxGap_m); };
+  const auto at = [&](const Cell& cell) {
+    return Eigen::Vector2d(axes.along.dot(cell.mean) / kMaxGap_m, axes.across.dot(cell.mean) / kMaxGap_m);
+  };
   for (const Cell& cell : cells) {
     if (index.Insert(VoxelKey({at(cell).x(), at(cell).y(), 0})).second) squares.push_back(at(cell));
   }
@@ -170,7 +172,8 @@ std::optional<Segment> SegmentOf(const std::vector<Cell>& cells, SurfaceKind kin
   const double area_m2 = kCell_m * kCell_m * static_cast<double>(segment.cells.size());
   if (segment.cells.empty() || area_m2 < options.min_segment_extent_m * options.min_segment_extent_m) return std::nullopt;
   const Eigen::Vector2d size_m = hi - lo + Eigen::Vector2d::Constant(kCell_m);
-  const double min_across_m = kind == SurfaceKind::kWall ? std::min(kMinAcross_m, options.min_segment_extent_m) : options.min_segment_extent_m;
+  const double min_across_m =
+      kind == SurfaceKind::kWall ? std::min(kMinAcross_m, options.min_segment_extent_m) : options.min_segment_extent_m;
   if (size_m.x() < options.min_segment_extent_m || size_m.y() < min_across_m) return std::nullopt;
   if (area_m2 < kSureArea_m2 && area_m2 < kMinFill * size_m.prod()) return std::nullopt;
   return segment;
@@ -190,8 +193,8 @@ PlaneAxes AxesOf(const Plane& plane, SurfaceKind kind, const Eigen::Vector3d& up
   return axes;
 }
 
-std::vector<Segment> SplitCells(const std::vector<PlaneStats>& cells, SurfaceKind kind, const Eigen::Vector3d& normal, const PlaneAxes& axes,
-                                double sigma_m, const MapperOptions& options) {
+std::vector<Segment> SplitCells(const std::vector<PlaneStats>& cells, SurfaceKind kind, const Eigen::Vector3d& normal,
+                                const PlaneAxes& axes, double sigma_m, const MapperOptions& options) {
   std::vector<Cell> remaining;
   for (const PlaneStats& cell : cells) {
     if (cell.count() >= kMinCellPoints) remaining.push_back(MakeCell(cell, sigma_m));

@@ -9,8 +9,8 @@
 
 namespace plumb::runtime {
 
-// Two directions along a plane, in the order (along, across). Walls: along is horizontal and has the free space on its left, across is upwards;
-// floors and ceilings: along is close to the frame's x axis. `up` is away from gravity.
+// Two directions along a plane, in the order (along, across). Walls: along is horizontal and has the free space on its left, across is
+// upwards; floors and ceilings: along is close to the frame's x axis. `up` is away from gravity.
 struct PlaneAxes {
   Eigen::Vector3d along, across;
 };
@@ -18,9 +18,10 @@ struct PlaneAxes {
 
 inline constexpr double kCell_m = 0.1;  // of occupancy on surfaces
 
-// The planes that cells' points form, largest first: each is the plane that cells' means agree on best within their noise, fitted to all points
-// of these cells (total least squares). A single point does not tell a door leaf from the wall 5 cm before it, the mean of a cell's points does.
-// `normal` and `axes` of the rough plane; `sigma_m` of the points about a plane. Leaves out what is too small. O(cells) per plane.
+// The planes that cells' points form, largest first: each is the plane that cells' means agree on best within their noise, fitted to all
+// points of these cells (total least squares). A single point does not tell a door leaf from the wall 5 cm before it, the mean of a cell's
+// points does. `normal` and `axes` of the rough plane; `sigma_m` of the points about a plane. Leaves out what is too small. O(cells) per
+// plane.
 [[nodiscard]] std::vector<Segment> SplitCells(const std::vector<PlaneStats>& cells, SurfaceKind kind, const Eigen::Vector3d& normal,
                                               const PlaneAxes& axes, double sigma_m, const MapperOptions& options);
 

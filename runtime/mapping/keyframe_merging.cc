@@ -8,7 +8,8 @@ namespace {
 constexpr size_t kLeastPoints = 500;  // a keyframe with fewer is not thinned: it could not be matched by them
 
 std::vector<Observation>::const_iterator Find(const std::vector<Observation>& observations, uint32_t keyframe) {
-  const auto at = std::lower_bound(observations.begin(), observations.end(), keyframe, [](const Observation& o, uint32_t k) { return o.keyframe < k; });
+  const auto at =
+      std::lower_bound(observations.begin(), observations.end(), keyframe, [](const Observation& o, uint32_t k) { return o.keyframe < k; });
   return at != observations.end() && at->keyframe == keyframe ? at : observations.end();
 }
 
@@ -57,7 +58,8 @@ void MergeKeyframe(uint32_t keyframe, uint32_t into, SGraph* graph) {
     if (seen == observations.end()) continue;
     const Observation moved{into, seen->stats.Transformed(merged.merged->T_into_kf)};
     observations.erase(seen);
-    const auto at = std::lower_bound(observations.begin(), observations.end(), into, [](const Observation& o, uint32_t k) { return o.keyframe < k; });
+    const auto at =
+        std::lower_bound(observations.begin(), observations.end(), into, [](const Observation& o, uint32_t k) { return o.keyframe < k; });
     if (at != observations.end() && at->keyframe == into) {
       at->stats.Add(moved.stats);
     } else {

@@ -10,8 +10,8 @@
 
 namespace plumb::runtime {
 
-// The older keyframe that `keyframe` can be merged into (the rule: MapperOptions::redundant_distance_m), of several the one that saw most of its
-// points' surfaces; none if there is none. O(observations).
+// The older keyframe that `keyframe` can be merged into (the rule: MapperOptions::redundant_distance_m), of several the one that saw most
+// of its points' surfaces; none if there is none. O(observations).
 [[nodiscard]] std::optional<uint32_t> RedundantTo(const SGraph& graph, uint32_t keyframe, const MapperOptions& options);
 
 // Nothing that `keyframe` measured is lost but its points: its observations become those of `into`, from where they stand at present.

@@ -39,7 +39,8 @@ void LoopCloser::Move(const Pose2& T_odom_scan, const Eigen::Matrix3d& step_cova
 
 void LoopCloser::Open() {
   const bool continues = !kept_ && !keyframes_.empty();
-  to_open_ = continues ? ComposedCovariance(Between(keyframes_.back().T_odom_kf, open_), to_open_, Between(open_, last_), since_open_) : since_open_;
+  to_open_ = continues ? ComposedCovariance(Between(keyframes_.back().T_odom_kf, open_), to_open_, Between(open_, last_), since_open_)
+                       : since_open_;
   since_open_.setZero();
   open_ = last_;
   open_travelled_m_ = last_travelled_m_;
@@ -98,7 +99,8 @@ std::optional<PoseEdge> LoopCloser::Match(uint32_t candidate, const std::vector<
   prior.mean = Between(poses[candidate], poses[newest]);
   prior.sigma_m = std::sqrt(std::max(covariance(0, 0), covariance(1, 1)) + kFloor_m * kFloor_m);
   prior.sigma_rad = std::sqrt(covariance(2, 2) + kFloor_rad * kFloor_rad);
-  const SearchWindow window{std::clamp(3 * prior.sigma_m, kMinWindow_m, kMaxWindow_m), std::clamp(3 * prior.sigma_rad, kMinWindow_rad, kMaxWindow_rad)};
+  const SearchWindow window{std::clamp(3 * prior.sigma_m, kMinWindow_m, kMaxWindow_m),
+                            std::clamp(3 * prior.sigma_rad, kMinWindow_rad, kMaxWindow_rad)};
   const PlanarScan& scan = keyframes_[newest].scan;
   const SearchResult found = GridOf(placed, prior.mean.t_m).Search(SearchPoints(scan), prior, window);
   if (found.share < kMinShare) return std::nullopt;

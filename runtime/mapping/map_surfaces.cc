@@ -13,7 +13,8 @@ namespace {
 constexpr double kSameFacingCos = 0.8;
 // Two views of one surface may differ in direction by this much at the shorter one's ends, and by odometry's drift.
 constexpr double kEndOffset_m = 0.03, kMinAngle_rad = 0.02;
-constexpr double kMaxJointOff = 0.5;  // of the merge distance: how much further from the common plane than from its own a part's points may be, rms
+constexpr double kMaxJointOff =
+    0.5;  // of the merge distance: how much further from the common plane than from its own a part's points may be, rms
 constexpr double kEchoPoints = 0.2, kEchoFacingCos = 0.94, kEchoDistance_m = 0.15, kEchoShare = 0.6;
 constexpr double kEdge_m = 0.5 * kCell_m;  // a cell's mean point lies inside the surface's edge by about this
 
@@ -129,7 +130,8 @@ bool FitOnePlane(const SurfaceTrack& a, const SurfaceTrack& b, const MapperOptio
   return fits(a.sum) && fits(b.sum);
 }
 
-bool IsEcho(const MapSurface& b, const SurfacePatch& b_patch, const std::vector<MapSurface>& surfaces, const std::vector<SurfaceTrack>& tracks) {
+bool IsEcho(const MapSurface& b, const SurfacePatch& b_patch, const std::vector<MapSurface>& surfaces,
+            const std::vector<SurfaceTrack>& tracks) {
   std::vector<const SurfacePatch*> stronger;
   for (size_t i = 0; i < surfaces.size(); ++i) {
     const MapSurface& a = surfaces[i];

@@ -23,16 +23,18 @@ struct TrackedSurface {
 // A surface of its own, made of one segment seen from `keyframe`.
 [[nodiscard]] TrackedSurface SurfaceOf(const Segment& segment, const Keyframe& keyframe);
 
-// How far apart two surfaces are, at the ends of their overlap; infinity if they are not the same: other kind or facing, other direction, offset
-// too large, or a gap between them. Offsets are taken on the surfaces, never at the frame's origin, where an error in direction would pass for one in offset.
+// How far apart two surfaces are, at the ends of their overlap; infinity if they are not the same: other kind or facing, other direction,
+// offset too large, or a gap between them. Offsets are taken on the surfaces, never at the frame's origin, where an error in direction
+// would pass for one in offset.
 [[nodiscard]] double SurfaceDistance(const SurfacePatch& a, const SurfacePatch& b, const MapperOptions& options);
 
-// Whether one plane fits the points of both about as well as each one's own does: nowhere near a step, however gently a plane could lean across it.
+// Whether one plane fits the points of both about as well as each one's own does: nowhere near a step, however gently a plane could lean
+// across it.
 [[nodiscard]] bool FitOnePlane(const SurfaceTrack& a, const SurfaceTrack& b, const MapperOptions& options);
 
-// Whether b is none: most of its cells lie close in front of or behind where surfaces that face the same way have been seen much more often, one or
-// several of them. Of two opaque surfaces one hides the other, so nothing real can be there; such planes lean from a wall to a door's casing or
-// a window's frame. O(cells of b) for each of `surfaces`, which have `tracks` in the same order and may contain b.
+// Whether b is none: most of its cells lie close in front of or behind where surfaces that face the same way have been seen much more
+// often, one or several of them. Of two opaque surfaces one hides the other, so nothing real can be there; such planes lean from a wall to
+// a door's casing or a window's frame. O(cells of b) for each of `surfaces`, which have `tracks` in the same order and may contain b.
 [[nodiscard]] bool IsEcho(const MapSurface& b, const SurfacePatch& b_patch, const std::vector<MapSurface>& surfaces,
                           const std::vector<SurfaceTrack>& tracks);
 

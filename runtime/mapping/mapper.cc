@@ -33,7 +33,9 @@ Distance Between(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
 }  // namespace
 
 std::string MapperOptions::Check() const {
-  const auto bad = [](const char* field, auto value, const char* rule) { return fmt::format("MapperOptions.{} = {}; must be {}", field, value, rule); };
+  const auto bad = [](const char* field, auto value, const char* rule) {
+    return fmt::format("MapperOptions.{} = {}; must be {}", field, value, rule);
+  };
   if (!(keyframe_distance_m > 0)) return bad("keyframe_distance_m", keyframe_distance_m, "> 0");
   if (!(keyframe_rotation_rad > 0)) return bad("keyframe_rotation_rad", keyframe_rotation_rad, "> 0");
   if (!(keyframe_interval_s > 0)) return bad("keyframe_interval_s", keyframe_interval_s, "> 0");
@@ -58,7 +60,8 @@ std::string MapperOptions::Check() const {
 
 Mapper::Mapper(const MapperOptions& options) : options_(options), loops_(kPointShare * options.plane_sigma_m) {}
 
-bool Mapper::AddScan(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar, const std::optional<Eigen::Matrix3d>& planar_step, bool timed) {
+bool Mapper::AddScan(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar, const std::optional<Eigen::Matrix3d>& planar_step,
+                     bool timed) {
   const bool grown = window_ && WindowIsFull(deskewed.stamp_s, T_odom_lidar) && CloseWindow();
   if (planar_step) loops_.Move(Leveled(T_odom_lidar).pose, *planar_step);
   if (!window_ && planar_step) loops_.Open();
@@ -68,8 +71,8 @@ bool Mapper::AddScan(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar
   return grown;
 }
 
-// Points of a sweep are evenly spread over the sensor's way meanwhile, at the speed since the last scan, and the pose is that of their middle: the root
-// mean square of a uniform distribution of that width. The lidar's axes.
+// Points of a sweep are evenly spread over the sensor's way meanwhile, at the speed since the last scan, and the pose is that of their
+// middle: the root mean square of a uniform distribution of that width. The lidar's axes.
 Smear Mapper::SmearOf(double stamp_s, const Eigen::Isometry3d& T_odom_lidar) const {
   if (!last_scan_) return {};
   const Eigen::Isometry3d T_now_last = T_odom_lidar.inverse() * last_scan_->T_odom_lidar;
@@ -194,7 +197,8 @@ void Mapper::MergeDuplicates() {
     for (size_t k = i + 1; k < surfaces.size(); ++k) {
       if (surfaces[i].observations.empty()) break;
       if (surfaces[k].observations.empty()) continue;
-      if (std::isinf(SurfaceDistance(tracks_[i].patch, tracks_[k].patch, options_)) || !FitOnePlane(tracks_[i], tracks_[k], options_)) continue;
+      if (std::isinf(SurfaceDistance(tracks_[i].patch, tracks_[k].patch, options_)) || !FitOnePlane(tracks_[i], tracks_[k], options_))
+        continue;
       Absorb({surfaces[k], tracks_[k]}, graph_.keyframes, &surfaces[i], &tracks_[i]);
       Empty(k);
       k = i;  // the grown surface may reach others

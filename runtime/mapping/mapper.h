@@ -15,18 +15,20 @@
 namespace plumb::runtime {
 
 // Scans are gathered in a window that opens at a keyframe's pose and closes when the robot has moved on; the closed window is the keyframe.
-// A robot that stands still makes no further keyframes, one that comes by again makes none that last (keyframe_merging.h). So memory grows with
-// the area driven through (points, 130 bytes per surface seen from a keyframe, cells), and by 0.4 kB per keyframe with time.
+// A robot that stands still makes no further keyframes, one that comes by again makes none that last (keyframe_merging.h). So memory grows
+// with the area driven through (points, 130 bytes per surface seen from a keyframe, cells), and by 0.4 kB per keyframe with time.
 class Mapper {
  public:
   explicit Mapper(const MapperOptions& options = {});
 
   // Adds one deskewed scan, points in the lidar frame at its stamp. True if it closed a keyframe, i.e. the graph has grown.
-  // `planar_step`: of a planar laser (OdometryResult::planar), the covariance of (x, y, yaw) of the motion since the last scan. Its scans see walls
-  // only, as lines (planar_segmentation.h), and the loops they make are closed here (loop_closure.h).
-  // `timed`: its points were put where the sensor was when each was measured; else the keyframe is smeared by the motion meanwhile.
-  bool AddScan(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar, const std::optional<Eigen::Matrix3d>& planar_step = std::nullopt, bool timed = true);
-  // While the plan holds the keyframes' poses, loops are found but move nothing: they know nothing of the plan and would pull the map off it.
+  // `planar_step`: of a planar laser (OdometryResult::planar), the covariance of (x, y, yaw) of the motion since the last scan. Its scans
+  // see walls only, as lines (planar_segmentation.h), and the loops they make are closed here (loop_closure.h). `timed`: its points were
+  // put where the sensor was when each was measured; else the keyframe is smeared by the motion meanwhile.
+  bool AddScan(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar,
+               const std::optional<Eigen::Matrix3d>& planar_step = std::nullopt, bool timed = true);
+  // While the plan holds the keyframes' poses, loops are found but move nothing: they know nothing of the plan and would pull the map off
+  // it.
   void HoldPoses(bool hold) { poses_held_ = hold; }
   // Makes a keyframe of what AddScan() has gathered since the last one, at a recording's end. True if the graph has grown.
   bool Flush();

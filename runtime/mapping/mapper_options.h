@@ -11,8 +11,8 @@ struct MapperOptions {
   double keyframe_interval_s = 2.0;      // ... or this long
   double keyframe_voxel_m = 0.05;        // points of a keyframe are thinned to one per voxel, ...
   int max_keyframe_points = 12000;       // ... and further, evenly, to this many
-  // A keyframe that is no longer among the newest `recent_keyframes` is merged into an older one at most this far off (0: never), if that one saw
-  // `redundant_share` of its points' surfaces as well and each of those has been seen from `well_known_views` keyframes besides.
+  // A keyframe that is no longer among the newest `recent_keyframes` is merged into an older one at most this far off (0: never), if that
+  // one saw `redundant_share` of its points' surfaces as well and each of those has been seen from `well_known_views` keyframes besides.
   double redundant_distance_m = 0.5;
   double redundant_share = 0.9;
   int well_known_views = 5;
@@ -23,8 +23,8 @@ struct MapperOptions {
   int min_segment_points = 50;
   int min_line_points = 10;              // of a wall segment in planar scans
   double min_segment_extent_m = 0.4;
-  double merge_distance_m = 0.035;        // same surface: within this at both ends of the overlap (a door leaf lies 5 cm behind its wall), ...
-  double merge_angle_rad = 0.10;         // ... and this in direction (long ones less: 3 cm over the shorter's length, but at least 0.02), ...
+  double merge_distance_m = 0.035;  // same surface: within this at both ends of the overlap (a door leaf lies 5 cm behind its wall), ...
+  double merge_angle_rad = 0.10;    // ... and this in direction (long ones less: 3 cm over the shorter's length, but at least 0.02), ...
   double merge_gap_m = 0.5;              // ... and no further apart along the wall
   [[nodiscard]] std::string Check() const;  // empty, or the field, its value and the rule
 };

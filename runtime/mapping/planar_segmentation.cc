@@ -128,7 +128,9 @@ std::vector<Line> Joined(std::vector<Line> lines, const MapperOptions& options) 
 }
 
 Segment SegmentOf(const Line& line, const Eigen::Matrix3d& leveling) {
-  const auto lifted = [&](const Eigen::Vector2d& p, double z_m) -> Eigen::Vector3d { return leveling.transpose() * Eigen::Vector3d(p.x(), p.y(), z_m); };
+  const auto lifted = [&](const Eigen::Vector2d& p, double z_m) -> Eigen::Vector3d {
+    return leveling.transpose() * Eigen::Vector3d(p.x(), p.y(), z_m);
+  };
   Segment segment;
   segment.plane.n = lifted(line.normal, 0);
   segment.plane.d = -line.normal.dot(line.mean);

@@ -16,8 +16,9 @@ inline constexpr double kSeenHalfHeight_m = 0.05;
 inline constexpr double kLineHeight_m = 1.0;
 
 // Straight runs of the window's scans as vertical planes; the scan plane is level. Scans are split at gaps and where they bend (iterative
-// end-point fit), runs of one line joined. How high a wall reaches is not seen: its points count as spread evenly to kSeenHalfHeight_m above and
-// below the scan plane, which makes the plane vertical and leaves its tilt as uncertain as that height allows. In order of length. O(points log points).
+// end-point fit), runs of one line joined. How high a wall reaches is not seen: its points count as spread evenly to kSeenHalfHeight_m
+// above and below the scan plane, which makes the plane vertical and leaves its tilt as uncertain as that height allows. In order of
+// length. O(points log points).
 [[nodiscard]] std::vector<Segment> ExtractLineSegments(const KeyframeWindow& window, const MapperOptions& options);
 
 }  // namespace plumb::runtime

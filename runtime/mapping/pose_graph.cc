@@ -51,7 +51,8 @@ std::vector<Pose2> SolvePoseGraph(const std::vector<Pose2>& poses, std::span<con
     const Eigen::Matrix3d information = edge.covariance.ldlt().solve(Eigen::Matrix3d::Identity());
     const EdgeResidual residual{edge.T_from_to, information.llt().matrixU()};
     problem.AddResidualBlock(new ceres::AutoDiffCostFunction<EdgeResidual, 3, 3, 3>(new EdgeResidual(residual)),
-                             edge.loop ? static_cast<ceres::LossFunction*>(&loop_loss) : &step_loss, blocks[edge.from].data(), blocks[edge.to].data());
+                             edge.loop ? static_cast<ceres::LossFunction*>(&loop_loss) : &step_loss, blocks[edge.from].data(),
+                             blocks[edge.to].data());
   }
   ceres::Solver::Options options;
   options.linear_solver_type = ceres::SPARSE_NORMAL_CHOLESKY;

@@ -14,9 +14,10 @@ namespace plumb::runtime {
 // about a millisecond per hundred poses.
 [[nodiscard]] std::vector<Pose2> SolvePoseGraph(const std::vector<Pose2>& poses, std::span<const PoseEdge> edges);
 
-// Covariance of (x, y, yaw) of every pose in `source`, in the axes of `source`: along the surest path of edges. What other paths know as well is left
-// out, so this is never less than the marginal of the graph (Dijkstra projection; Bosse et al., IJRR 2004). O(edges log poses).
-// Poses that no path reaches get infinite variances.
-[[nodiscard]] std::vector<Eigen::Matrix3d> RelativeCovariances(const std::vector<Pose2>& poses, std::span<const PoseEdge> edges, uint32_t source);
+// Covariance of (x, y, yaw) of every pose in `source`, in the axes of `source`: along the surest path of edges. What other paths know as
+// well is left out, so this is never less than the marginal of the graph (Dijkstra projection; Bosse et al., IJRR 2004). O(edges log
+// poses). Poses that no path reaches get infinite variances.
+[[nodiscard]] std::vector<Eigen::Matrix3d> RelativeCovariances(const std::vector<Pose2>& poses, std::span<const PoseEdge> edges,
+                                                               uint32_t source);
 
 }  // namespace plumb::runtime

@@ -182,12 +182,13 @@ void FindMatches(const Eigen::Vector3d& p, const Eigen::Vector3d& sensor, const 
   for (const uint32_t i : *near) {
     const Candidate& c = candidates[i];
     const double distance_m = std::abs(c.plane.SignedDistance(p)), toward_m = c.plane.n.dot(ray);
-    if (distance_m <= band_sigmas * c.sigma_m && toward_m > 0) matches->push_back({i, distance_m, toward_m >= kMinCosIncidence * ray.norm()});
+    if (distance_m <= band_sigmas * c.sigma_m && toward_m > 0)
+      matches->push_back({i, distance_m, toward_m >= kMinCosIncidence * ray.norm()});
   }
 }
 
-// Where two planes meet or step, small "planes" fit the noise between them. From the largest on, a candidate stays if enough of its points are
-// not already explained by those that stay.
+// Where two planes meet or step, small "planes" fit the noise between them. From the largest on, a candidate stays if enough of its points
+// are not already explained by those that stay.
 void KeepUnexplained(const KeyframeWindow& window, const Reach& reach, std::vector<Candidate>* candidates) {
   std::vector<std::vector<uint32_t>> points_of(candidates->size());
   std::vector<Match> matches;
@@ -201,7 +202,8 @@ void KeepUnexplained(const KeyframeWindow& window, const Reach& reach, std::vect
   std::vector<bool> explained(num_points, false);
   for (size_t c = 0; c < candidates->size(); ++c) {
     const auto unexplained = std::count_if(points_of[c].begin(), points_of[c].end(), [&](uint32_t i) { return !explained[i]; });
-    (*candidates)[c].stays = static_cast<double>(unexplained) >= kMinUnexplained * static_cast<double>(points_of[c].size()) && unexplained > 0;
+    (*candidates)[c].stays =
+        static_cast<double>(unexplained) >= kMinUnexplained * static_cast<double>(points_of[c].size()) && unexplained > 0;
     if (!(*candidates)[c].stays) continue;
     for (const uint32_t i : points_of[c]) explained[i] = true;
   }

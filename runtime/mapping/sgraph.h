@@ -64,12 +64,13 @@ struct MapSurface {
   Plane plane;  // map frame, current estimate
   std::vector<Observation> observations;
   double num_points = 0;
-  // Extent, map frame, to about 5 cm. Walls: the footprint from `start` to `end` as in plumb::Surface (free space to the left), and the height
-  // band. Floors and ceilings: lowest and highest x and y; the heights are both that of the centroid.
+  // Extent, map frame, to about 5 cm. Walls: the footprint from `start` to `end` as in plumb::Surface (free space to the left), and the
+  // height band. Floors and ceilings: lowest and highest x and y; the heights are both that of the centroid.
   Eigen::Vector2d start = Eigen::Vector2d::Zero(), end = Eigen::Vector2d::Zero();
   double z_min_m = 0, z_max_m = 0;
-  // Cells of 0.1 m x 0.1 m of the surface that hold points: what was really seen of it. area_m2 = number of cells * 0.1 m * Segment::cell_height_m.
-  // Kept once per surface, fixed to the first keyframe that saw it: when poses change, all cells follow that keyframe.
+  // Cells of 0.1 m x 0.1 m of the surface that hold points: what was really seen of it. area_m2 = number of cells * 0.1 m *
+  // Segment::cell_height_m. Kept once per surface, fixed to the first keyframe that saw it: when poses change, all cells follow that
+  // keyframe.
   double area_m2 = 0;
   // Walls: where those cells are, (distance from `start` towards `end`, height).
   std::vector<Eigen::Vector2f> cells;
@@ -110,8 +111,8 @@ struct PoseEdge {
 };
 
 struct SGraph {
-  // Made by a planar laser: walls are seen on one line, in the plane of the keyframes, whose height above the floor is not known; there are no
-  // floors and ceilings, and height, roll and pitch of keyframes are conventions.
+  // Made by a planar laser: walls are seen on one line, in the plane of the keyframes, whose height above the floor is not known; there are
+  // no floors and ceilings, and height, roll and pitch of keyframes are conventions.
   bool planar = false;
   std::vector<Keyframe> keyframes;   // ids are stable; merged ones keep their slot, without points
   std::vector<PoseEdge> edges;  // between keyframes, of their levelled frames; by a planar laser: odometry's steps and the loops

@@ -1,4 +1,5 @@
-// How far unknown motion within sweeps may have displaced what a keyframe saw: by direction, as a wall along the way is seen sharply and one across it is not.
+// How far unknown motion within sweeps may have displaced what a keyframe saw: by direction, as a wall along the way is seen sharply and
+// one across it is not.
 #pragma once
 
 #include <Eigen/Core>
@@ -13,7 +14,8 @@ struct Smear {
   [[nodiscard]] Smear Rotated(const Eigen::Matrix3d& R) const { return {R * m2 * R.transpose(), R * rad2 * R.transpose()}; }
   // The least that is nowhere below itself or `other`.
   void Cover(const Smear& other);
-  // Variance of where a plane with unit normal n is seen at point p; and of its normal's turn towards a direction, `axis` being what it turns about.
+  // Variance of where a plane with unit normal n is seen at point p; and of its normal's turn towards a direction, `axis` being what it
+  // turns about.
   [[nodiscard]] double OffsetVariance_m2(const Eigen::Vector3d& n, const Eigen::Vector3d& p) const;
   [[nodiscard]] double TurnVariance_rad2(const Eigen::Vector3d& axis) const { return axis.dot(rad2 * axis); }
 };

@@ -7,8 +7,8 @@
 
 namespace plumb::runtime {
 
-SurfacePatch::SurfacePatch(uint32_t keyframe, const Eigen::Isometry3d& T_map_kf, const Plane& plane, SurfaceKind kind, const Eigen::Vector3d& at,
-                           double cell_height_m)
+SurfacePatch::SurfacePatch(uint32_t keyframe, const Eigen::Isometry3d& T_map_kf, const Plane& plane, SurfaceKind kind,
+                           const Eigen::Vector3d& at, double cell_height_m)
     : keyframe_(keyframe), kind_(kind), cell_height_m_(cell_height_m) {
   lo_.setConstant(std::numeric_limits<double>::infinity());
   hi_ = -lo_;

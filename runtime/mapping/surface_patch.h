@@ -10,8 +10,8 @@
 
 namespace plumb::runtime {
 
-// Occupied cells on a plane, in coordinates (along, across) of AxesOf() about an anchor point. The anchor is kept in the frame of a keyframe,
-// so that the patch follows when the optimizer moves it; everything that is returned is in the map frame.
+// Occupied cells on a plane, in coordinates (along, across) of AxesOf() about an anchor point. The anchor is kept in the frame of a
+// keyframe, so that the patch follows when the optimizer moves it; everything that is returned is in the map frame.
 class SurfacePatch {
  public:
   // `keyframe` is the first that saw the surface and T_map_kf its pose; `at` a point near the plane; `cell_height_m` as in Segment.

@@ -87,7 +87,8 @@ class GoalSearch {
     const Eigen::Vector3d t = T * plan_.plan().origin - plan_.plan().origin;
     moved.t_m = t.head<2>();
     moved.z_m = t.z();
-    const double nats = JudgeRays(plan_, view, PlanarPose(), options_).log_likelihood - JudgeRays(plan_, view, moved, options_).log_likelihood;
+    const double nats =
+        JudgeRays(plan_, view, PlanarPose(), options_).log_likelihood - JudgeRays(plan_, view, moved, options_).log_likelihood;
     return std::max(0.0, nats * guidance_.seen_ratio * guidance_.keyframes_per_stop * options_.rays_per_keyframe / guidance_.num_azimuths);
   }
 
@@ -139,7 +140,9 @@ class GoalSearch {
 }  // namespace
 
 std::string GuidanceOptions::Check() const {
-  const auto bad = [](const char* name, double value, const char* rule) { return fmt::format("GuidanceOptions.{} = {}; must be {}", name, value, rule); };
+  const auto bad = [](const char* name, double value, const char* rule) {
+    return fmt::format("GuidanceOptions.{} = {}; must be {}", name, value, rule);
+  };
   if (!(max_walk_m > 0)) return bad("max_walk_m", max_walk_m, "positive");
   if (max_stops < 1) return bad("max_stops", max_stops, "at least 1");
   if (max_rivals < 1) return bad("max_rivals", max_rivals, "at least 1");

@@ -38,8 +38,8 @@ struct Guidance {
   std::optional<Goal> goal;  // none: nothing within max_walk_m tells any of them from the best
 };
 
-// The nearest room that tells the best hypothesis of `match` from all its rivals, else from as many as can be. What the walk would show is cast
-// in the plan and judged by the ray model under either hypothesis, whichever is true. None if the match is unique, has no rivals or is
+// The nearest room that tells the best hypothesis of `match` from all its rivals, else from as many as can be. What the walk would show is
+// cast in the plan and judged by the ray model under either hypothesis, whichever is true. None if the match is unique, has no rivals or is
 // no better than "outside the plan". `T_map_lidar`: the robot. Deterministic; max_stops * num_azimuths * max_rivals * 4 rays at most.
 [[nodiscard]] std::optional<Guidance> Guide(const PlanIndex& plan, const SGraph& map, const MatchResult& match,
                                             const Eigen::Isometry3d& T_map_lidar, const MatcherOptions& options,

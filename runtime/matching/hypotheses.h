@@ -1,4 +1,5 @@
-// Proposes where the map may lie in the plan: every pair of a map wall and a plan face votes for the poses under which one lies on the other.
+// Proposes where the map may lie in the plan: every pair of a map wall and a plan face votes for the poses under which one lies on the
+// other.
 #pragma once
 
 #include <vector>

@@ -155,7 +155,6 @@ std::string MatcherOptions::Check() const {
     return bad("accept_min_consistent_ratio", accept_min_consistent_ratio, "in [0, 1]");
   }
   if (!(vouch_explained_ratio > 0)) return bad("vouch_explained_ratio", vouch_explained_ratio, "positive");
-  if (!(vouch_sure_nats >= vouch_lead_nats)) return bad("vouch_sure_nats", vouch_sure_nats, "at least vouch_lead_nats");
   if (!(vouch_lead_ratio > 0)) return bad("vouch_lead_ratio", vouch_lead_ratio, "positive");
   if (!(vouch_nearly_all_ratio > 0)) return bad("vouch_nearly_all_ratio", vouch_nearly_all_ratio, "positive");
   if (!(vouch_lead_nats > 0)) return bad("vouch_lead_nats", vouch_lead_nats, "positive");
@@ -203,7 +202,8 @@ MatchResult Matcher::Match(const SGraph& map, const StartHint& hint) const {
   const std::vector<Candidate> finalists = search.Finalists(view, hint);
   const AGraph& plan = search.plan.plan();
   WrongPlans wrong;
-  if (!finalists.empty() && !WallsTellScale(finalists.front().fit, search.options)) wrong.scaled = search.ScaledLikelihood(view, finalists.front());
+  if (!finalists.empty() && !WallsTellScale(finalists.front().fit, search.options))
+    wrong.scaled = search.ScaledLikelihood(view, finalists.front());
   result = Decide(finalists, view, plan, search.options, wrong);
   if (result.verdict != MatchResult::Verdict::kUnique) return result;
   wrong.mirrored = impl_->MirroredLikelihood(view, finalists.front().fit.pose);

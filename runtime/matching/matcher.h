@@ -32,21 +32,22 @@ struct MatcherOptions {
   double accept_sigma_xy_m = 0.10;
   double accept_sigma_yaw_rad = 0.0087;
   int accept_min_planes = 5;                  // of the plan's walls that the map agrees with; one more for 4 rooms, two for 32, ...
-  double accept_min_consistent_ratio = 0.35;  // of the map's wall length; the rest may be furniture and deviated walls
+  // Of the map's wall length; the rest may be furniture and deviated walls. Not asked for where rays vouch for the place, or where it leads
+  // "outside" by vouch_lead_nats while no other place, nor the plan's mirror image, is better than that.
+  double accept_min_consistent_ratio = 0.4;
   double accept_max_through_ratio = 0.02;     // of the rays: may pass through walls of the plan
   int ample_more_planes = 2;                  // this many more agree than are asked for: then vouch_max_through_ratio of the rays may
-  // The building's size against the plan's: the walls tell it to within this with two sigmas and no farther from the plan's than so many, or
-  // the rays prefer the plan to one that is larger or smaller by as much, by vouch_lead_nats.
+  // The building's size against the plan's: the walls tell it to within this with two sigmas and no farther from the plan's than so many,
+  // or the rays prefer the plan to one that is larger or smaller by as much, by vouch_lead_nats.
   double accept_scale_error = 0.025;
   double accept_scale_sigmas = 1.5;
-  // Rays vouch for a place that far fewer walls would not: in furnished or much deviating buildings. They do where this share of them ends on
-  // what the plan has there, and the place leads every rival, the plan's mirror image and "outside" by this many nats, and by this much of its
-  // own log-likelihood unless the lead is sure or nearly all rays end where they should. Furniture in the way of a planar laser, where half of
-  // the rays of an office end, says nothing: of these maps' rays only those count that nothing stops in front.
+  // Rays vouch for a place that far fewer walls would not: in furnished or much deviating buildings. They do where this share of them ends
+  // on what the plan has there, and the place leads every rival, the plan's mirror image and "outside" by this many nats, and by this much
+  // of its own log-likelihood unless nearly all rays end where they should. Furniture in the way of a planar laser, where half of the rays
+  // of an office end, says nothing: of these maps' rays only those count that nothing stops in front.
   double vouch_explained_ratio = 0.65;
   double vouch_lead_nats = 30;
   double vouch_lead_ratio = 0.3;
-  double vouch_sure_nats = 60;
   double vouch_nearly_all_ratio = 0.9;
   int vouch_min_planes = 4;                   // one less where nearly all rays end where they should and few go through walls
   double vouch_max_through_ratio = 0.06;
@@ -60,8 +61,8 @@ struct Hypothesis {
   double log_likelihood = 0;  // relative to "outside the plan"; with what a hint says
   double probability = 0;
   double sigma_xy_m = 0, sigma_yaw_rad = 0;  // of the map's middle in the plan
-  // What speaks for it and against it: planes of the plan that agree, their share of the map's walls, shares of the rays that ended on what the
-  // plan has there and that went through planned walls.
+  // What speaks for it and against it: planes of the plan that agree, their share of the map's walls, shares of the rays that ended on what
+  // the plan has there and that went through planned walls.
   int consistent_planes = 0;
   double consistent_ratio = 0, explained_ratio = 0, through_ratio = 0, in_front_ratio = 0;
 };

@@ -86,8 +86,13 @@ bool RaysVouch(const std::vector<Candidate>& sorted, double mirrored, bool plana
   for (size_t i = 1; i < sorted.size(); ++i) rival = std::max(rival, sorted[i].rays.log_likelihood);
   const double lead = best.log_likelihood - rival;
   return best.explained_ratio >= options.vouch_explained_ratio * counted_ratio && lead >= options.vouch_lead_nats &&
-         (lead >= options.vouch_lead_ratio * best.log_likelihood || lead >= options.vouch_sure_nats ||
-          best.explained_ratio >= options.vouch_nearly_all_ratio);
+         (lead >= options.vouch_lead_ratio * best.log_likelihood || best.explained_ratio >= options.vouch_nearly_all_ratio);
+}
+
+bool StandsAlone(const std::vector<Candidate>& sorted, double mirrored, const MatcherOptions& options) {
+  const auto fits = [](const Candidate& c) { return c.rays.log_likelihood > 0; };
+  return sorted.size() > 1 && sorted.front().rays.log_likelihood >= options.vouch_lead_nats && mirrored <= 0 &&
+         std::none_of(sorted.begin() + 1, sorted.end(), fits);
 }
 
 bool WallsTellScale(const WallFit& fit, const MatcherOptions& options) {
@@ -95,12 +100,14 @@ bool WallsTellScale(const WallFit& fit, const MatcherOptions& options) {
          std::abs(fit.scale_error) <= options.accept_scale_sigmas * fit.sigma_scale;
 }
 
-std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, int required_planes, bool rays_vouch,
+std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, int required_planes, const RayVerdict& by_rays,
                   const std::optional<double>& scaled, const MatcherOptions& options) {
   const WallFit& fit = candidate.fit;
+  const bool rays_vouch = by_rays.vouch;
   const bool ample = rays_vouch || fit.consistent_planes >= required_planes + options.ample_more_planes;
   if (rays_vouch) {
-    const bool nearly_all = candidate.rays.explained_ratio >= options.vouch_nearly_all_ratio && candidate.rays.through_ratio <= options.accept_max_through_ratio;
+    const bool nearly_all = candidate.rays.explained_ratio >= options.vouch_nearly_all_ratio &&
+                            candidate.rays.through_ratio <= options.accept_max_through_ratio;
     required_planes = std::min(required_planes, options.vouch_min_planes - (nearly_all ? 1 : 0));
   }
   const double max_sigma_xy_m = rays_vouch ? options.vouch_sigma_xy_m : options.accept_sigma_xy_m;
@@ -110,10 +117,11 @@ std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, int 
   if (fit.consistent_planes < required_planes) {
     return fmt::format("only {} wall planes agree with the plan, {} are asked for", fit.consistent_planes, required_planes);
   }
-  if (!rays_vouch && fit.consistent_ratio < options.accept_min_consistent_ratio) {
+  const bool few_agree = !rays_vouch && fit.consistent_ratio < options.accept_min_consistent_ratio;
+  if (few_agree && !by_rays.stands_alone) {
     return fmt::format("only {:.0f} % of the walls seen agree with the plan", 100 * fit.consistent_ratio);
   }
-  if (candidate.rays.through_ratio > (ample ? options.vouch_max_through_ratio : options.accept_max_through_ratio)) {
+  if (candidate.rays.through_ratio > (ample && !few_agree ? options.vouch_max_through_ratio : options.accept_max_through_ratio)) {
     return fmt::format("{:.1f} % of the rays went through walls of the plan", 100 * candidate.rays.through_ratio);
   }
   const bool rays_tell_scale = scaled && candidate.rays.log_likelihood - *scaled >= options.vouch_lead_nats;
@@ -132,8 +140,8 @@ MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, con
   }
   const size_t n = std::min(sorted.size(), static_cast<size_t>(options.keep_hypotheses));
   for (size_t i = 0; i < n; ++i) result.hypotheses.push_back(ToHypothesis(sorted[i], map, plan.origin));
-  const bool rays_vouch = RaysVouch(sorted, wrong.mirrored, map.planar, options);
-  if (rays_vouch) SetSigmas(sorted.front().fit.place_information, result.hypotheses.front());
+  const RayVerdict by_rays{RaysVouch(sorted, wrong.mirrored, map.planar, options), StandsAlone(sorted, wrong.mirrored, options)};
+  if (by_rays.vouch) SetSigmas(sorted.front().fit.place_information, result.hypotheses.front());
   SetProbabilities(result, std::max(0.0, wrong.mirrored));
   const Hypothesis& best = result.hypotheses.front();
   // A hint says where in the plan, not that it is the building's: here only the evidence counts.
@@ -148,7 +156,8 @@ MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, con
   }
   const auto rivals = std::count_if(sorted.begin() + 1, sorted.begin() + static_cast<ptrdiff_t>(n),
                                     [&](const Candidate& c) { return IsRival(sorted.front(), c, options); });
-  result.reason = Doubt(sorted.front(), best, RequiredPlanes(plan.rooms.size(), sorted.front().log_prior, options), rays_vouch, wrong.scaled, options);
+  result.reason = Doubt(sorted.front(), best, RequiredPlanes(plan.rooms.size(), sorted.front().log_prior, options), by_rays, wrong.scaled,
+                        options);
   if (!result.reason.empty()) {
     if (rivals > 0) result.reason += fmt::format("; {} other places in the plan look alike", rivals);
     return result;

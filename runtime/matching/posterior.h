@@ -36,17 +36,27 @@ struct WrongPlans {
 [[nodiscard]] MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, const AGraph& plan,
                                  const MatcherOptions& options, const WrongPlans& wrong = {});
 
-// Planes that must agree in a plan of so many rooms: the more there are, the more of them look alike by chance. A hint leaves fewer of them.
+// Planes that must agree in a plan of so many rooms: the more there are, the more of them look alike by chance. A hint leaves fewer of
+// them.
 [[nodiscard]] int RequiredPlanes(size_t num_rooms, double log_prior, const MatcherOptions& options);
 
 // Whether the rays alone tell the place (see MatcherOptions) of a map, by a planar laser or another. `sorted` must not be empty.
 [[nodiscard]] bool RaysVouch(const std::vector<Candidate>& sorted, double mirrored, bool planar, const MatcherOptions& options);
 
+// Whether the best is the only place at which the rays fit: by vouch_lead_nats better than "outside the plan", while all others, the best
+// in the plan's mirror image among them, are no better than that. Without another there is nothing to tell by. `sorted` must not be empty.
+[[nodiscard]] bool StandsAlone(const std::vector<Candidate>& sorted, double mirrored, const MatcherOptions& options);
+
+// What the rays say about the best place, beside how well they fit.
+struct RayVerdict {
+  bool vouch = false, stands_alone = false;  // RaysVouch(), StandsAlone()
+};
+
 // Whether the walls tell the building's size to within accept_scale_error, and that it is the plan's.
 [[nodiscard]] bool WallsTellScale(const WallFit& fit, const MatcherOptions& options);
 
 // Why this pose alone, rivals aside, is not yet trusted; empty if it is. `scaled`: see WrongPlans.
-[[nodiscard]] std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, int required_planes, bool rays_vouch,
+[[nodiscard]] std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, int required_planes, const RayVerdict& by_rays,
                                 const std::optional<double>& scaled, const MatcherOptions& options);
 
 }  // namespace plumb::runtime

@@ -118,8 +118,8 @@ RayEvidence JudgeRays(const PlanIndex& plan, const MapView& map, const PlanarPos
   }
   if (used == 0) return evidence;
   const double scale = static_cast<double>(map.rays.size()) / static_cast<double>(used);
-  // Charged for every ray, judged or not: a pose from which nothing of the plan is seen explains nothing. But what furniture stops says as little
-  // of a wrong plan as of the right one, and among furniture that is every other ray of a planar laser.
+  // Charged for every ray, judged or not: a pose from which nothing of the plan is seen explains nothing. But what furniture stops says as
+  // little of a wrong plan as of the right one, and among furniture that is every other ray of a planar laser.
   const double charged = static_cast<double>(used) - (map.planar ? in_front : 0);
   evidence.log_likelihood = scale * (sum - kForeignGain * charged) / options.rays_per_independent;
   if (evidence.judged > 0) {

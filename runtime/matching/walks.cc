@@ -69,7 +69,8 @@ class Walks {
     const Eigen::Vector3d step = (half_wall_m + kInside_m) * Eigen::Vector3d(passage.x(), passage.y(), 0);
     for (const bool back : {false, true}) {
       entries_from_[(back ? b : a).index()].push_back(entries_.size());
-      entries_.push_back({back ? b : a, back ? a : b, num_openings_, back ? Eigen::Vector3d(middle - step) : Eigen::Vector3d(middle + step)});
+      entries_.push_back(
+          {back ? b : a, back ? a : b, num_openings_, back ? Eigen::Vector3d(middle - step) : Eigen::Vector3d(middle + step)});
     }
     ++num_openings_;
   }

@@ -1,4 +1,5 @@
-// Eigenvalues and eigenvectors of small symmetric matrices. Compiled once, as every file that includes Eigen's own solver builds for seconds.
+// Eigenvalues and eigenvectors of small symmetric matrices. Compiled once, as every file that includes Eigen's own solver builds for
+// seconds.
 #pragma once
 
 #include <Eigen/Core>

@@ -15,7 +15,8 @@ constexpr double kLever_m = 0.1;                        // what sways moves up a
 
 }  // namespace
 
-// The axis t in odometry's frame and b in the lidar's make sum |R^T t - b|^2 + k |t - first_up|^2 least: a step of alternating minimization per sweep.
+// The axis t in odometry's frame and b in the lidar's make sum |R^T t - b|^2 + k |t - first_up|^2 least: a step of alternating minimization
+// per sweep.
 void LevelMotion::Learn(const Eigen::Isometry3d& T_odom_lidar, const Eigen::Matrix3d& rotation_covariance) {
   const Eigen::Matrix3d R = T_odom_lidar.linear();
   rotations_ += R - kAxisFade * rotations_;
@@ -40,8 +41,10 @@ SweepGaussian LevelMotion::Restrict(const SweepGaussian& free, const EstimatedSw
   const Matrix12d level = Matrix12d::Identity() - start * start.transpose() - motion * motion.transpose();
   SweepGaussian out = free;
   out.covariance = level * free.covariance * level;
-  out.covariance += (end.dot(last.covariance * end) + variance_m2(gap_s)) * start * start.transpose() + variance_m2(next_sweep_s) * motion * motion.transpose();
-  for (Eigen::Isometry3d* T : {&out.mean.T_start, &out.mean.T_end}) T->translation() += up_.dot(last.motion.T_end.translation() - T->translation()) * up_;
+  out.covariance += (end.dot(last.covariance * end) + variance_m2(gap_s)) * start * start.transpose() +
+                    variance_m2(next_sweep_s) * motion * motion.transpose();
+  for (Eigen::Isometry3d* T : {&out.mean.T_start, &out.mean.T_end})
+    T->translation() += up_.dot(last.motion.T_end.translation() - T->translation()) * up_;
   return out;
 }
 

@@ -7,8 +7,8 @@
 
 namespace plumb::runtime {
 
-// How much this sensor sways about the axis that it turns about, learned from its own attitude, which walls show where nothing shows its height: what
-// rolls on a level floor keeps its tilt, what climbs a ramp or stairs, walks or is carried does not.
+// How much this sensor sways about the axis that it turns about, learned from its own attitude, which walls show where nothing shows its
+// height: what rolls on a level floor keeps its tilt, what climbs a ramp or stairs, walks or is carried does not.
 class LevelMotion {
  public:
   // Direction away from gravity in odometry's frame, roughly: the axis is learned, too.
@@ -18,7 +18,8 @@ class LevelMotion {
   void Learn(const Eigen::Isometry3d& T_odom_lidar, const Eigen::Matrix3d& rotation_covariance);
 
   // `free`, but along up() the robot stays where it was at the end of `last`, give or take what it sways.
-  [[nodiscard]] SweepGaussian Restrict(const SweepGaussian& free, const EstimatedSweep& last, double next_stamp_s, double next_sweep_s) const;
+  [[nodiscard]] SweepGaussian Restrict(const SweepGaussian& free, const EstimatedSweep& last, double next_stamp_s,
+                                       double next_sweep_s) const;
 
   [[nodiscard]] double sway_rad() const;  // rms, what the attitude's noise makes up taken off
   [[nodiscard]] const Eigen::Vector3d& up() const { return up_; }

@@ -48,8 +48,8 @@ std::optional<Eigen::Vector3d> FindUp(const SurfelMap& map, double max_tilt_rad)
     if (s.normal.z() < -std::cos(candidate_rad)) ceilings.push_back(&s);
     if (std::abs(s.normal.z()) < std::sin(candidate_rad)) walls.push_back(&s);
   }
-  // Cost of a direction g: floor and ceiling, sum (g . (p - mean))^2 / noise; walls, sum (g . n)^2 / variance of n in the direction of g, with
-  // a robust kernel: surfels in corners lean.
+  // Cost of a direction g: floor and ceiling, sum (g . (p - mean))^2 / noise; walls, sum (g . n)^2 / variance of n in the direction of g,
+  // with a robust kernel: surfels in corners lean.
   const Eigen::Matrix3d level = (LargestLevel(floors).scatter + LargestLevel(ceilings).scatter) / noise_m2;
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
   double off_rad = candidate_rad;

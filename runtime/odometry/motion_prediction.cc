@@ -14,7 +14,7 @@ constexpr double kFloor_m = 0.003, kFloor_rad = 0.002;  // least sigma of any pr
 constexpr double kGivenScaleSigma = 0.1;                // a given odometry's relative error
 constexpr double kMaxGivenSpeed_mps = 30.0;             // beyond, the given odometry has jumped
 constexpr double kMaxPrediction_s = 1.0;                // velocity is not trusted for longer
-constexpr double kVerticalDamping = 0.5;                // robots move along the floor: climbing at this rate dies out where no plane measures it
+constexpr double kVerticalDamping = 0.5;  // robots move along the floor: climbing at this rate dies out where no plane measures it
 
 Matrix6d DiagonalCovariance(const Eigen::Vector3d& rotation_rad, const Eigen::Vector3d& translation_m) {
   Vector6d variances;
@@ -49,10 +49,12 @@ Eigen::Isometry3d Advanced(const Eigen::Isometry3d& T, const Twist& twist, doubl
   return out;
 }
 
-double EstimatedSweep::GapTo_s(double next_stamp_s) const { return std::clamp(next_stamp_s - stamp_s - sweep_s, -sweep_s, kMaxPrediction_s); }
+double EstimatedSweep::GapTo_s(double next_stamp_s) const {
+  return std::clamp(next_stamp_s - stamp_s - sweep_s, -sweep_s, kMaxPrediction_s);
+}
 
-SweepGaussian PredictSweep(const EstimatedSweep& last, double next_stamp_s, double next_sweep_s, const std::optional<Odometry::GivenMotion>& given,
-                           const std::optional<Eigen::Vector3d>& up) {
+SweepGaussian PredictSweep(const EstimatedSweep& last, double next_stamp_s, double next_sweep_s,
+                           const std::optional<Odometry::GivenMotion>& given, const std::optional<Eigen::Vector3d>& up) {
   SweepGaussian out;
   const double gap_s = last.GapTo_s(next_stamp_s);
   // The next start and motion, given the last ones' increments: start' = d + (1 + gap / sweep) e, motion' = (sweep' / sweep) e.

@@ -16,7 +16,8 @@ struct Twist {
 [[nodiscard]] Twist TwistBetween(const Eigen::Isometry3d& T_0, const Eigen::Isometry3d& T_1, double dt_s);
 
 // T after dt_s of a motion. With `up`, climbing dies out.
-[[nodiscard]] Eigen::Isometry3d Advanced(const Eigen::Isometry3d& T, const Twist& twist, double dt_s, const std::optional<Eigen::Vector3d>& up);
+[[nodiscard]] Eigen::Isometry3d Advanced(const Eigen::Isometry3d& T, const Twist& twist, double dt_s,
+                                         const std::optional<Eigen::Vector3d>& up);
 
 [[nodiscard]] inline double RotationAngle(const Eigen::Isometry3d& T) { return LogSo3(T.linear()).norm(); }
 
@@ -32,7 +33,7 @@ struct EstimatedSweep {
 };
 
 // Given odometry: its step, to a tenth. Without: constant velocity, whose change is that of a robot or a walking person. O(1).
-[[nodiscard]] SweepGaussian PredictSweep(const EstimatedSweep& last, double next_stamp_s, double next_sweep_s, const std::optional<Odometry::GivenMotion>& given,
-                                         const std::optional<Eigen::Vector3d>& up);
+[[nodiscard]] SweepGaussian PredictSweep(const EstimatedSweep& last, double next_stamp_s, double next_sweep_s,
+                                         const std::optional<Odometry::GivenMotion>& given, const std::optional<Eigen::Vector3d>& up);
 
 }  // namespace plumb::runtime

@@ -35,7 +35,9 @@ constexpr double kBootstrapSpeed_mps = 0.03, kBootstrapTurn_radps = 0.03;
 }  // namespace
 
 std::string OdometryOptions::Check() const {
-  const auto bad = [](const char* field, auto value, const char* rule) { return fmt::format("OdometryOptions.{} = {}; must be {}", field, value, rule); };
+  const auto bad = [](const char* field, auto value, const char* rule) {
+    return fmt::format("OdometryOptions.{} = {}; must be {}", field, value, rule);
+  };
   if (!(voxel_m >= 0.1 && voxel_m <= 5)) return bad("voxel_m", voxel_m, "in [0.1, 5]");
   if (!(scan_spacing_m >= 0.01 && scan_spacing_m <= 2)) return bad("scan_spacing_m", scan_spacing_m, "in [0.01, 2]");
   if (!(range_sigma_m >= 0.001 && range_sigma_m <= 0.2)) return bad("range_sigma_m", range_sigma_m, "in [0.001, 0.2]");
@@ -75,7 +77,8 @@ struct Odometry::Impl {
   SurfelMap map;
   std::optional<PreparedScan> first;  // until the second scan tells how fast the first one moved
   bool started = false;
-  std::optional<LevelMotion> level;  // if the first scan told which way is up; else z of the odometry's frame is the sensor's own axis, which may lie
+  std::optional<LevelMotion>
+      level;  // if the first scan told which way is up; else z of the odometry's frame is the sensor's own axis, which may lie
   int failures = 0;         // in a row: nothing says where the robot went meanwhile
   int misfits = 0;          // of these, scans with enough points: the map is not of this place
   EstimatedSweep last;
@@ -236,11 +239,13 @@ OdometryResult Odometry::Register(const Scan& scan, const std::optional<GivenMot
     if (!too_few) s.Start(prepared, given);
     result.ok = !too_few;
   } else {
-    const SweepPrior prior = s.PriorAbout(PredictSweep(s.last, scan.stamp_s, prepared.sweep_s, given, s.up()), scan.stamp_s, prepared.sweep_s, given.has_value());
+    const SweepPrior prior = s.PriorAbout(PredictSweep(s.last, scan.stamp_s, prepared.sweep_s, given, s.up()), scan.stamp_s,
+                                          prepared.sweep_s, given.has_value());
     const double gap_s = scan.stamp_s - s.last.stamp_s - s.last.sweep_s;
     RegistrationResult aligned = s.Align(prepared, prior, gap_s);
     if (aligned.ok && s.first) s.RestartWithVelocity(prepared, prior, &aligned);
-    const double found = prepared.points.empty() ? 0 : static_cast<double>(aligned.num_inliers) / static_cast<double>(prepared.points.size());
+    const double found =
+        prepared.points.empty() ? 0 : static_cast<double>(aligned.num_inliers) / static_cast<double>(prepared.points.size());
     // A floor, a ceiling and some wall or other are found anywhere.
     aligned.ok = aligned.ok && found >= kLeastShare * s.found_share;
     if (aligned.ok) s.found_share = found;

@@ -1,8 +1,9 @@
 // LiDAR odometry: deskew and point-to-plane registration, in one, against a voxel map of what was seen before.
 //
 // The poses at a sweep's start and end are estimated together (registration.h), so turning and braking within a sweep are measured, not
-// assumed. The map keeps everything up to max_voxels: a robot that comes back is where it was. The first scan levels the frame (leveling.h).
-// Recordings of a planar laser, told by their first scan, go through planar/planar_odometry.h instead, which takes the scan plane as level.
+// assumed. The map keeps everything up to max_voxels: a robot that comes back is where it was. The first scan levels the frame
+// (leveling.h). Recordings of a planar laser, told by their first scan, go through planar/planar_odometry.h instead, which takes the scan
+// plane as level.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -26,11 +27,13 @@ struct OdometryOptions {
 
 struct OdometryResult {
   bool ok = false;               // false: pose is a prediction only
-  // A second of scans found no place on the map: a new map begins with this one, at a predicted pose. What was mapped before is not tied to it.
+  // A second of scans found no place on the map: a new map begins with this one, at a predicted pose. What was mapped before is not tied to
+  // it.
   bool restarted = false;
   bool planar = false;           // the sensor is a planar laser
   bool timed = false;            // per-point times were usable; else points are taken to be of the stamp, "deskew off"
-  // At the scan's stamp. odom: origin and yaw of the first scan, z up (from floor, ceiling or walls in the first scan, else its own z axis).
+  // At the scan's stamp. odom: origin and yaw of the first scan, z up (from floor, ceiling or walls in the first scan, else its own z
+  // axis).
   Eigen::Isometry3d T_odom_lidar = Eigen::Isometry3d::Identity();
   Scan deskewed;                 // finite points in range, in the lidar frame at the scan's stamp; time_s empty
   int iterations = 0;

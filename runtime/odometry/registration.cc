@@ -98,7 +98,8 @@ struct PriorTerm {
   Matrix12d information;
 };
 
-LinearSystem WithPrior(const NormalEquations& sum, const Matrix6d& held, const SweepMotion& motion, const PriorTerm& prior, const RegistrationOptions& options) {
+LinearSystem WithPrior(const NormalEquations& sum, const Matrix6d& held, const SweepMotion& motion, const PriorTerm& prior,
+                       const RegistrationOptions& options) {
   const double share = 1 / options.points_per_independent;
   LinearSystem system;
   const Matrix6d mixed = share * held.transpose() * sum.A[1] * held;

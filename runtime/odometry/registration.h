@@ -1,7 +1,8 @@
 // Registration of one sweep to a surfel map: Gauss-Newton on the poses at the sweep's start and end together.
 //
 // Residual of a point fired at fraction s of the sweep: r = n . (T(s) p - m), T(s) between the two poses, (n, m) the surfel's plane.
-// Increments are taken in the odometry's frame about a centre c: T_start turns by d_r and moves by d_t, T_end by d + e; T(s) then by d + s e:
+// Increments are taken in the odometry's frame about a centre c: T_start turns by d_r and moves by d_t, T_end by d + e; T(s) then by d + s
+// e:
 //   dr/d(d) = a = [(q - c) x n, n],   dr/d(e) = s a,   q = T(s) p.
 // Kernel: Geman-McClure, its scale shrinking from what the prediction may be off to the noise.
 // Directions that the planes do not hold (a corridor's length) are left to the prior.
@@ -42,7 +43,7 @@ struct RegistrationOptions {
   // A direction is the prior's alone if its share of the planes' information is below this, or below what the noise of their normals makes
   // up: along a smooth corridor, normals that err by 1 degree seem to say where the robot is.
   double degenerate_ratio = 3e-4;
-  double level_ratio = 0.02;            // SweepPrior::level counts where the height along `up` has less than this share of the planes' information
+  double level_ratio = 0.02;  // SweepPrior::level counts where the height along `up` has less than this share of the planes' information
   double initial_kernel_m = 0.3;        // of the first iteration; halves down to three sigma
   bool search_neighbours = false;       // first iterations also look into neighbouring voxels: for large prediction errors
 };
@@ -58,7 +59,8 @@ struct RegistrationResult {
   double rms_m = 0;
 };
 
-// Signed distance of T p to the plane through `mean` with `normal`, and its derivative by an increment (rotation, translation) about `center`.
+// Signed distance of T p to the plane through `mean` with `normal`, and its derivative by an increment (rotation, translation) about
+// `center`.
 struct PointToPlane {
   double residual_m = 0;
   Vector6d jacobian = Vector6d::Zero();
@@ -70,7 +72,7 @@ struct PointToPlane {
 [[nodiscard]] Eigen::Isometry3d Moved(const Eigen::Isometry3d& T, const Vector6d& increment, const Eigen::Vector3d& center);
 
 // O(iterations * points).
-[[nodiscard]] RegistrationResult RegisterSweep(std::span<const SweepPoint> points, bool timed, const SurfelMap& map, const SweepPrior& prior,
-                                               const RegistrationOptions& options);
+[[nodiscard]] RegistrationResult RegisterSweep(std::span<const SweepPoint> points, bool timed, const SurfelMap& map,
+                                               const SweepPrior& prior, const RegistrationOptions& options);
 
 }  // namespace plumb::runtime

@@ -4,8 +4,8 @@
 // A point belongs to a surfel only if its sensor stands on that side: the two faces of a thin wall in one voxel never mix.
 // Points of no surfel wait, apart by viewing direction, until they span a plane.
 //
-// The voxel grid is turned against the axes. Walls and floors are mostly parallel to the axes, and one that coincides with a grid plane would
-// have its noise cut in halves by it, each half a biased surfel.
+// The voxel grid is turned against the axes. Walls and floors are mostly parallel to the axes, and one that coincides with a grid plane
+// would have its noise cut in halves by it, each half a biased surfel.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -17,7 +17,8 @@ namespace plumb::runtime {
 
 // Of the voxel that holds p, given in units of voxels.
 [[nodiscard]] inline uint64_t VoxelKey(const Eigen::Vector3d& p) {
-  return PackVoxel(static_cast<int64_t>(std::floor(p.x())), static_cast<int64_t>(std::floor(p.y())), static_cast<int64_t>(std::floor(p.z())));
+  return PackVoxel(static_cast<int64_t>(std::floor(p.x())), static_cast<int64_t>(std::floor(p.y())),
+                   static_cast<int64_t>(std::floor(p.z())));
 }
 
 // The k-th, of 27, of the steps to a voxel and its neighbours; 13 is the voxel itself.

@@ -25,12 +25,15 @@ std::string CheckInput(const SGraph& map, const AGraph& plan, const std::vector<
   if (std::string error = options.Check(); !error.empty()) return error;
   if (map.keyframes.empty()) return "the map has no keyframes";
   for (const Match& m : matches) {
-    if (m.map_surface >= map.surfaces.size()) return fmt::format("match of map surface {}; the map has {}", m.map_surface, map.surfaces.size());
+    if (m.map_surface >= map.surfaces.size())
+      return fmt::format("match of map surface {}; the map has {}", m.map_surface, map.surfaces.size());
     if (!m.plan_surface.valid()) {
-      if (!m.room.valid() || m.room.index() >= plan.rooms.size()) return fmt::format("match of map surface {} has neither plan surface nor room", m.map_surface);
+      if (!m.room.valid() || m.room.index() >= plan.rooms.size())
+        return fmt::format("match of map surface {} has neither plan surface nor room", m.map_surface);
       continue;
     }
-    if (m.plan_surface.index() >= plan.surfaces.size()) return fmt::format("match with plan surface {}; the plan has {}", m.plan_surface.value, plan.surfaces.size());
+    if (m.plan_surface.index() >= plan.surfaces.size())
+      return fmt::format("match with plan surface {}; the plan has {}", m.plan_surface.value, plan.surfaces.size());
     const Surface& surface = plan.surfaces[m.plan_surface.index()];
     if (!surface.wall.valid() || !IsFace(frames[surface.wall.index()], surface)) {
       return fmt::format("match with plan surface {}, which is no face of a wall", m.plan_surface.value);
@@ -42,7 +45,8 @@ std::string CheckInput(const SGraph& map, const AGraph& plan, const std::vector<
 const char* GaugeRule(EstimationMode mode) {
   switch (mode) {
     case EstimationMode::kDis: break;
-    case EstimationMode::kIs: return "The plan is laid where all seen walls together fit it best, and no deviations are estimated (mode is)";
+    case EstimationMode::kIs:
+      return "The plan is laid where all seen walls together fit it best, and no deviations are estimated (mode is)";
     case EstimationMode::kUc: return "The plan is laid where all seen walls, deviating or not, fit it best (mode uc)";
     case EstimationMode::kSo: return "The plan is laid by one optimization from where it was first put, with no consensus before (mode so)";
   }
@@ -98,7 +102,9 @@ class Optimizer {
  private:
   [[nodiscard]] bool held() const { return schedule_.prior == EstimationSchedule::WallPrior::kHeld; }
 
-  void SeedHeight() { state_.place[2] -= ConsensusHeight(LevelVotes(map_, plan_, matches_, Poses(state_), Place()), options_.level_sigma_m); }
+  void SeedHeight() {
+    state_.place[2] -= ConsensusHeight(LevelVotes(map_, plan_, matches_, Poses(state_), Place()), options_.level_sigma_m);
+  }
 
   void Measure() { measurements_ = MeasureWalls(map_, plan_, frames_, matches_, Poses(state_), Place(), options_); }
 
@@ -146,10 +152,12 @@ class Optimizer {
       if (options_.covariances) result.message += " Rank deficient: covariances are the priors' own, the widest they can be.";
     }
     const bool asks_walls = covariances && schedule_.consensus;
-    JointOptions walls_alone = options_;  // the place by the rays comes from the same walls: it may choose between places, not make one certain
+    JointOptions walls_alone =
+        options_;  // the place by the rays comes from the same walls: it may choose between places, not make one certain
     walls_alone.place.reset();
     walls_alone.place_sigma_m = JointOptions().place_sigma_m;
-    const std::vector<RivalPlace> rivals = asks_walls ? RivalPlaces(measurements_, frames_, Place(), walls_alone) : std::vector<RivalPlace>();
+    const std::vector<RivalPlace> rivals =
+        asks_walls ? RivalPlaces(measurements_, frames_, Place(), walls_alone) : std::vector<RivalPlace>();
     for (size_t w = 0; w < state_.walls.size(); ++w) result.walls.push_back(Estimate(w, covariances, rivals));
     CountSeen(result.walls);
     result.directions = SupportByDirection(measurements_, frames_, state_.bias_m, options_.coupling);
@@ -160,7 +168,8 @@ class Optimizer {
   static std::vector<MeasuredElsewhere> Places(size_t w, const std::vector<RivalPlace>& rivals) {
     std::vector<MeasuredElsewhere> out{{1.0, Eigen::Vector2d::Zero()}};
     double sum = 1;
-    for (const RivalPlace& rival : rivals) sum += out.emplace_back(MeasuredElsewhere{std::exp(rival.log_odds), rival.shifts[w]}).probability;
+    for (const RivalPlace& rival : rivals)
+      sum += out.emplace_back(MeasuredElsewhere{std::exp(rival.log_odds), rival.shifts[w]}).probability;
     for (MeasuredElsewhere& place : out) place.probability /= sum;
     return out;
   }
@@ -175,7 +184,8 @@ class Optimizer {
     e.p_deviated = responsibilities_[w].any;
     if (!covariances) {
       const CouplingOptions& c = options_.coupling;
-      e.cov_all = Eigen::Vector4d(c.offset_tau1_m, c.yaw_tau1_rad, options_.tilt_sigma_rad, options_.thickness_sigma_m).cwiseAbs2().asDiagonal();
+      e.cov_all =
+          Eigen::Vector4d(c.offset_tau1_m, c.yaw_tau1_rad, options_.tilt_sigma_rad, options_.thickness_sigma_m).cwiseAbs2().asDiagonal();
       e.cov = e.cov_all.topLeftCorner<2, 2>();
       e.evidence.covariance = e.cov;
       return e;
@@ -232,8 +242,8 @@ class Optimizer {
     std::string text = GaugeRule(options_.mode) + std::string(".");
     for (const DirectionSupport& d : result.directions) {
       if (!d.ambiguous()) continue;
-      text += fmt::format(" Along {:.0f} deg the frame is ambiguous: {} {} with it, {} with another.",
-                          d.axis_rad * 180 / std::numbers::pi, d.consistent, d.consistent == 1 ? "wall agrees" : "walls agree", d.next_cluster);
+      text += fmt::format(" Along {:.0f} deg the frame is ambiguous: {} {} with it, {} with another.", d.axis_rad * 180 / std::numbers::pi,
+                          d.consistent, d.consistent == 1 ? "wall agrees" : "walls agree", d.next_cluster);
     }
     return text;
   }

@@ -55,8 +55,8 @@ struct WallEstimate {
   WallId wall;
   SurfaceId reference;
   WallDeviation deviation;
-  // Of (offset_m, yaw_rad), poses and place marginalised. Two standard deviations cover the truth with 95 %, whichever component of the prior the wall
-  // belongs to and whichever of the places that the walls leave possible is the right one.
+  // Of (offset_m, yaw_rad), poses and place marginalised. Two standard deviations cover the truth with 95 %, whichever component of the
+  // prior the wall belongs to and whichever of the places that the walls leave possible is the right one.
   Eigen::Matrix2d cov = Eigen::Matrix2d::Zero();
   WallEvidence evidence;                          // (offset_m, yaw_rad) as the data alone have it, at the estimated place
   double place_sigma_m = 0;                       // how far other possible places would shift the offset, rms

@@ -27,9 +27,20 @@ constexpr double kLoopLoss = 2.0;  // in sigmas
 }  // namespace
 
 struct JointProblem::Impl {
-  Impl(const SGraph& map_in, const AGraph& plan_in, const std::vector<WallFrame>& frames_in, const JointOptions& options_in, JointState& state_in)
-      : map(map_in), plan(plan_in), frames(frames_in), options(options_in), state(state_in), observation_loss(options.observation_loss),
-        odometry_loss(kOdometryLoss), loop_loss(kLoopLoss), floor_loss(kFloorLoss), ceiling_loss(kCeilingLoss), level_weight{1 / options.level_sigma_m}, bias_weight{1 / options.bias_sigma_m},
+  Impl(const SGraph& map_in, const AGraph& plan_in, const std::vector<WallFrame>& frames_in, const JointOptions& options_in,
+       JointState& state_in)
+      : map(map_in),
+        plan(plan_in),
+        frames(frames_in),
+        options(options_in),
+        state(state_in),
+        observation_loss(options.observation_loss),
+        odometry_loss(kOdometryLoss),
+        loop_loss(kLoopLoss),
+        floor_loss(kFloorLoss),
+        ceiling_loss(kCeilingLoss),
+        level_weight{1 / options.level_sigma_m},
+        bias_weight{1 / options.bias_sigma_m},
         problem(SharedLossesAndManifolds()) {}
 
   void AddKeyframes() {
@@ -37,29 +48,34 @@ struct JointProblem::Impl {
     for (size_t i = 0; i < map.keyframes.size(); ++i) {
       if (!map.keyframes[i].merged) problem.AddParameterBlock(state.poses[i].data(), kPoseSize, manifold);
     }
-    problem.AddResidualBlock(Cost<AnchorResidual, 6, kPoseSize>({Anchor(), kAnchorSigma_m, kAnchorSigma_rad, options.gravity_sigma_rad}), nullptr,
-                             state.poses[0].data());
+    problem.AddResidualBlock(Cost<AnchorResidual, 6, kPoseSize>({Anchor(), kAnchorSigma_m, kAnchorSigma_rad, options.gravity_sigma_rad}),
+                             nullptr, state.poses[0].data());
     if (map.planar) return AddEdges();
     for (size_t i = 1, last = 0; i < map.keyframes.size(); ++i) {
       if (map.keyframes[i].merged) continue;
-      problem.AddResidualBlock(Cost<OdometryResidual, 6, kPoseSize, kPoseSize>(OdometryStep(map.keyframes[last], map.keyframes[i], options)), &odometry_loss,
-                               state.poses[last].data(), state.poses[i].data());
+      problem.AddResidualBlock(
+          Cost<OdometryResidual, 6, kPoseSize, kPoseSize>(OdometryStep(map.keyframes[last], map.keyframes[i], options)), &odometry_loss,
+          state.poses[last].data(), state.poses[i].data());
       last = i;
     }
   }
 
   // What odometry and loops say of a planar laser's motion, each with its own covariance.
   void AddEdges() {
-    const auto unlevel = [&](uint32_t keyframe) { return Eigen::Quaterniond(Leveled(map.keyframes[keyframe].T_map_kf).leveling).conjugate(); };
+    const auto unlevel = [&](uint32_t keyframe) {
+      return Eigen::Quaterniond(Leveled(map.keyframes[keyframe].T_map_kf).leveling).conjugate();
+    };
     for (const PoseEdge& edge : map.edges) {
       const Eigen::Matrix3d sqrt_information = edge.covariance.inverse().llt().matrixU();
       problem.AddResidualBlock(
           Cost<LevelStepResidual, 3, kPoseSize, kPoseSize>({edge.T_from_to, sqrt_information, unlevel(edge.from), unlevel(edge.to)}),
-          edge.loop ? static_cast<ceres::LossFunction*>(&loop_loss) : &odometry_loss, state.poses[edge.from].data(), state.poses[edge.to].data());
+          edge.loop ? static_cast<ceres::LossFunction*>(&loop_loss) : &odometry_loss, state.poses[edge.from].data(),
+          state.poses[edge.to].data());
     }
   }
 
-  // Where the first keyframe is, but upright as odometry measured it: of the present estimate, gravity would be a prior that follows the data.
+  // Where the first keyframe is, but upright as odometry measured it: of the present estimate, gravity would be a prior that follows the
+  // data.
   [[nodiscard]] Eigen::Isometry3d Anchor() const {
     Eigen::Isometry3d T = PoseOf(state.poses[0]);
     const Eigen::Matrix3d& R_odom = map.keyframes[0].T_odom_kf.linear();
@@ -71,7 +87,8 @@ struct JointProblem::Impl {
   void AddPlaceAndBias(const std::vector<Match>& matches) {
     const bool has_level = std::any_of(matches.begin(), matches.end(), [](const Match& m) { return !m.plan_surface.valid(); });
     if (!has_level) place_weight[2] = 1 / kHeldHeight_m;
-    problem.AddResidualBlock(Cost<PriorResidual<kPlaceSize>, kPlaceSize, kPlaceSize>({state.place, &place_weight}), nullptr, state.place.data());
+    problem.AddResidualBlock(Cost<PriorResidual<kPlaceSize>, kPlaceSize, kPlaceSize>({state.place, &place_weight}), nullptr,
+                             state.place.data());
     problem.AddResidualBlock(Cost<PriorResidual<1>, 1, 1>({{0.0}, &bias_weight}), nullptr, &state.bias_m);
   }
 
@@ -79,8 +96,8 @@ struct JointProblem::Impl {
     const bool held = ScheduleOf(options.mode).prior == EstimationSchedule::WallPrior::kHeld;
     wall_weights.assign(state.walls.size(), {0, 0, 1 / options.tilt_sigma_rad, 1 / options.thickness_sigma_m});
     for (size_t w = 0; w < state.walls.size(); ++w) {
-      problem.AddResidualBlock(Cost<PriorResidual<kNumWallParameters>, kNumWallParameters, kNumWallParameters>({{}, &wall_weights[w]}), nullptr,
-                               state.walls[w].data());
+      problem.AddResidualBlock(Cost<PriorResidual<kNumWallParameters>, kNumWallParameters, kNumWallParameters>({{}, &wall_weights[w]}),
+                               nullptr, state.walls[w].data());
       if (held) problem.SetParameterBlockConstant(state.walls[w].data());
     }
     for (const Match& m : matches) {
@@ -93,9 +110,10 @@ struct JointProblem::Impl {
       for (size_t i = 0; i < observations.size(); ++i) {
         const Observation& o = observations[i];
         if (m.IsMistaken(i)) continue;
-        problem.AddResidualBlock(
-            Cost<WallViewResidual, 3, kPoseSize, kPlaceSize, kNumWallParameters, 1>({PlaneView(o.stats, NoiseOf(options, map.keyframes[o.keyframe]), observations.size()), face}),
-            held ? nullptr : &observation_loss, state.poses[o.keyframe].data(), state.place.data(), wall, &state.bias_m);
+        problem.AddResidualBlock(Cost<WallViewResidual, 3, kPoseSize, kPlaceSize, kNumWallParameters, 1>(
+                                     {PlaneView(o.stats, NoiseOf(options, map.keyframes[o.keyframe]), observations.size()), face}),
+                                 held ? nullptr : &observation_loss, state.poses[o.keyframe].data(), state.place.data(), wall,
+                                 &state.bias_m);
       }
     }
   }
@@ -112,7 +130,8 @@ struct JointProblem::Impl {
       problem.AddResidualBlock(Cost<PriorResidual<1>, 1, 1>({{0.0}, &level_weight}), level_losses.back().get(), level);
       const std::vector<Observation>& observations = map.surfaces[matches[vote.match].map_surface].observations;
       for (const Observation& o : observations) {
-        const LevelViewResidual residual{PlaneView(o.stats, NoiseOf(options, map.keyframes[o.keyframe]), observations.size()), vote.planned_z_m, vote.floor ? 1.0 : -1.0};
+        const LevelViewResidual residual{PlaneView(o.stats, NoiseOf(options, map.keyframes[o.keyframe]), observations.size()),
+                                         vote.planned_z_m, vote.floor ? 1.0 : -1.0};
         problem.AddResidualBlock(Cost<LevelViewResidual, 3, kPoseSize, kPlaceSize, 1>(residual), &observation_loss,
                                  state.poses[o.keyframe].data(), state.place.data(), level);
       }
@@ -130,10 +149,12 @@ struct JointProblem::Impl {
       const Eigen::Vector3d n = surface.plane.n.normalized();
       double* plane = state.planes.emplace_back(std::array<double, kPlaneSize>{n.x(), n.y(), n.z(), surface.plane.d}).data();
       problem.AddParameterBlock(plane, kPlaneSize, &plane_manifold);
-      problem.AddResidualBlock(Cost<PriorResidual<kPlaneSize>, kPlaneSize, kPlaneSize>({state.planes.back(), &kPlaneWeight}), nullptr, plane);
+      problem.AddResidualBlock(Cost<PriorResidual<kPlaneSize>, kPlaneSize, kPlaneSize>({state.planes.back(), &kPlaneWeight}), nullptr,
+                               plane);
       for (const Observation& o : surface.observations) {
-        problem.AddResidualBlock(Cost<FreeViewResidual, 3, kPoseSize, kPlaneSize>({PlaneView(o.stats, NoiseOf(options, map.keyframes[o.keyframe]), surface.observations.size())}), &observation_loss,
-                                 state.poses[o.keyframe].data(), plane);
+        problem.AddResidualBlock(Cost<FreeViewResidual, 3, kPoseSize, kPlaneSize>(
+                                     {PlaneView(o.stats, NoiseOf(options, map.keyframes[o.keyframe]), surface.observations.size())}),
+                                 &observation_loss, state.poses[o.keyframe].data(), plane);
       }
     }
   }

@@ -37,7 +37,8 @@ struct JointCovariances {
 
 class JointProblem {
  public:
-  // Keeps references to all arguments. Where the mode of `options` estimates no deviations, walls stay as the state has them. The state's walls, levels and planes are sized and levels and planes set here.
+  // Keeps references to all arguments. Where the mode of `options` estimates no deviations, walls stay as the state has them. The state's
+  // walls, levels and planes are sized and levels and planes set here.
   JointProblem(const SGraph& map, const AGraph& plan, const std::vector<WallFrame>& frames, const std::vector<Match>& matches,
                const JointOptions& options, JointState& state);
   ~JointProblem();

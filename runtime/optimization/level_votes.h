@@ -10,8 +10,8 @@
 
 namespace plumb::runtime {
 
-// Cauchy scales of what they are off the plan, in sigmas. The robot stands on the floor, which is where the plan has it or all heights are off;
-// ceilings get suspended and have beams and ducts.
+// Cauchy scales of what they are off the plan, in sigmas. The robot stands on the floor, which is where the plan has it or all heights are
+// off; ceilings get suspended and have beams and ducts.
 inline constexpr double kFloorLoss = 3.0, kCeilingLoss = 1.0;
 
 // One match of a floor or ceiling.

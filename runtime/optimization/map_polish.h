@@ -18,8 +18,9 @@ struct PolishResult {
   std::string message = "not run";
 };
 
-// The joint problem's, but for two: what clings to a surface's edge is in all views of it and moves no keyframe against another, so it costs
-// them no weight (edge_m2 = 0); and without a plan only the views themselves tell which of them is mistaken (observation_loss = 1), which takes more iterations.
+// The joint problem's, but for two: what clings to a surface's edge is in all views of it and moves no keyframe against another, so it
+// costs them no weight (edge_m2 = 0); and without a plan only the views themselves tell which of them is mistaken (observation_loss = 1),
+// which takes more iterations.
 [[nodiscard]] JointOptions PolishOptions();
 
 // Moves all keyframes so that every surface is as thin as its views allow: each view is a pi-factor on a plane that is free, consecutive

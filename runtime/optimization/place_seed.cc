@@ -50,10 +50,12 @@ std::vector<Row> Rows(const std::vector<WallMeasurement>& walls, const std::vect
 class Seeder {
  public:
   // `prior`: the place as known before.
-  Seeder(std::vector<Row> rows, const Correction& prior, const JointOptions& options) : rows_(std::move(rows)), prior_(prior), options_(options) {}
+  Seeder(std::vector<Row> rows, const Correction& prior, const JointOptions& options)
+      : rows_(std::move(rows)), prior_(prior), options_(options) {}
 
   Correction Solve() const {
-    // The given place, polished: unless that leads elsewhere, as it does where one deviated wall is nearly all that is seen along its normal.
+    // The given place, polished: unless that leads elsewhere, as it does where one deviated wall is nearly all that is seen along its
+    // normal.
     Correction best = Polish(Correction::Zero());
     if (options_.place && best.head<2>().norm() > kSamePlace_m) best = Correction::Zero();
     double best_cost = Cost(best) - KeepMargin_nats();
@@ -79,7 +81,9 @@ class Seeder {
       const Correction x = Polish(proposal);
       RivalPlace rival{given - Cost(x), Shifts(x)};
       const bool known = std::any_of(out.begin(), out.end(), [&](const RivalPlace& o) { return Same(o.shifts, rival.shifts); });
-      if (rival.log_odds > -kNoRival_nats && !known && !Same(rival.shifts, std::vector<Eigen::Vector2d>(rows_.size(), Eigen::Vector2d::Zero()))) out.push_back(rival);
+      if (rival.log_odds > -kNoRival_nats && !known &&
+          !Same(rival.shifts, std::vector<Eigen::Vector2d>(rows_.size(), Eigen::Vector2d::Zero())))
+        out.push_back(rival);
     }
     return out;
   }
@@ -92,11 +96,12 @@ class Seeder {
   }
 
   static bool Same(const std::vector<Eigen::Vector2d>& a, const std::vector<Eigen::Vector2d>& b) {
-    return std::equal(a.begin(), a.end(), b.begin(), [](const Eigen::Vector2d& p, const Eigen::Vector2d& q) { return std::abs(p.x() - q.x()) < kDistinct_m; });
+    return std::equal(a.begin(), a.end(), b.begin(),
+                      [](const Eigen::Vector2d& p, const Eigen::Vector2d& q) { return std::abs(p.x() - q.x()) < kDistinct_m; });
   }
 
-  // By how much another place must be better than the given one. Where that is known from more than these walls, a single wall does not overrule it:
-  // the margin is what one wall's word weighs, the odds of standing as planned against being anywhere else.
+  // By how much another place must be better than the given one. Where that is known from more than these walls, a single wall does not
+  // overrule it: the margin is what one wall's word weighs, the odds of standing as planned against being anywhere else.
   double KeepMargin_nats() const {
     if (!options_.place) return kKeepMargin_nats;
     const CouplingOptions& c = options_.coupling;
@@ -113,7 +118,8 @@ class Seeder {
   }
 
   double TruncatedOffset(const Correction& x) const {
-    const double tolerance2 = options_.coupling.offset_tau0_m * options_.coupling.offset_tau0_m + options_.bias_sigma_m * options_.bias_sigma_m;
+    const double tolerance2 =
+        options_.coupling.offset_tau0_m * options_.coupling.offset_tau0_m + options_.bias_sigma_m * options_.bias_sigma_m;
     double sum = 0;
     for (const Row& r : rows_) {
       const double e = r.At(x).x();
@@ -170,7 +176,8 @@ class Seeder {
     std::stable_sort(scored.begin(), scored.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     std::vector<Correction> out;
     for (const auto& [score, x] : scored) {
-      const bool seen = std::any_of(out.begin(), out.end(), [&x = x](const Correction& o) { return (o - x).head<2>().norm() < kDistinct_m; });
+      const bool seen =
+          std::any_of(out.begin(), out.end(), [&x = x](const Correction& o) { return (o - x).head<2>().norm() < kDistinct_m; });
       if (!seen) out.push_back(x);
       if (out.size() == kMaxPolished) break;
     }
@@ -240,8 +247,8 @@ Seeder MakeSeeder(const std::vector<WallMeasurement>& walls, const std::vector<W
 
 }  // namespace
 
-std::vector<RivalPlace> RivalPlaces(const std::vector<WallMeasurement>& walls, const std::vector<WallFrame>& frames, const Eigen::Isometry3d& T_plan_map,
-                                    const JointOptions& options) {
+std::vector<RivalPlace> RivalPlaces(const std::vector<WallMeasurement>& walls, const std::vector<WallFrame>& frames,
+                                    const Eigen::Isometry3d& T_plan_map, const JointOptions& options) {
   return walls.empty() ? std::vector<RivalPlace>() : MakeSeeder(walls, frames, T_plan_map, options).Rivals();
 }
 
@@ -266,7 +273,8 @@ std::vector<DirectionSupport> SupportByDirection(const std::vector<WallMeasureme
   std::vector<Group> groups;
   for (const WallMeasurement& w : walls) {
     const Eigen::Vector2d n = frames[w.wall.index()].normal.head<2>().normalized();
-    auto group = std::find_if(groups.begin(), groups.end(), [&](const Group& g) { return std::abs(g.axis.dot(n)) > std::cos(kSameAxis_rad); });
+    auto group =
+        std::find_if(groups.begin(), groups.end(), [&](const Group& g) { return std::abs(g.axis.dot(n)) > std::cos(kSameAxis_rad); });
     if (group == groups.end()) {
       group = groups.emplace(groups.end());
       const double angle = std::fmod(std::atan2(n.y(), n.x()) + 2 * std::numbers::pi, std::numbers::pi);

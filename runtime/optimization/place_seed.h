@@ -25,13 +25,15 @@ struct RivalPlace {
   std::vector<Eigen::Vector2d> shifts;  // of each wall's measured (offset_m, yaw_rad), as `walls`
 };
 
-// The polished proposals of SeedPlace() at which some wall's offset differs by 2 cm and more from that at `T_plan_map`, the estimate, and which are less
-// probable by 7 nats at most. One that differs in what no wall tells, as along a corridor, is the same place. O() as SeedPlace().
+// The polished proposals of SeedPlace() at which some wall's offset differs by 2 cm and more from that at `T_plan_map`, the estimate, and
+// which are less probable by 7 nats at most. One that differs in what no wall tells, as along a corridor, is the same place. O() as
+// SeedPlace().
 [[nodiscard]] std::vector<RivalPlace> RivalPlaces(const std::vector<WallMeasurement>& walls, const std::vector<WallFrame>& frames,
                                                   const Eigen::Isometry3d& T_plan_map, const JointOptions& options);
 
 // Per axis of wall normals: walls that agree on the frame and the largest group that agrees on another.
-[[nodiscard]] std::vector<DirectionSupport> SupportByDirection(const std::vector<WallMeasurement>& walls, const std::vector<WallFrame>& frames,
-                                                               double bias_m, const CouplingOptions& options);
+[[nodiscard]] std::vector<DirectionSupport> SupportByDirection(const std::vector<WallMeasurement>& walls,
+                                                               const std::vector<WallFrame>& frames, double bias_m,
+                                                               const CouplingOptions& options);
 
 }  // namespace plumb::runtime

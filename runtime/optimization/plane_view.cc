@@ -36,7 +36,8 @@ PlaneView::PlaneView(const PlaneStats& stats, const ViewNoise& noise, size_t num
   const auto direction_weight = [&](double variance, const Eigen::Vector3d& axis) {
     if (variance <= 0) return 0.0;
     const double edge_rad = noise.edge_m2 / (2 * variance);
-    return 1.0 / std::sqrt(point_variance / variance + noise.floor_rad * noise.floor_rad + noise.smear.TurnVariance_rad2(axis) + static_cast<double>(num_views) * edge_rad * edge_rad);
+    return 1.0 / std::sqrt(point_variance / variance + noise.floor_rad * noise.floor_rad + noise.smear.TurnVariance_rad2(axis) +
+                           static_cast<double>(num_views) * edge_rad * edge_rad);
   };
   weight_u = direction_weight(m.var_u, v);
   weight_v = direction_weight(m.var_v, u);

@@ -17,7 +17,8 @@ struct NormalEquations {
   Eigen::Vector4d rhs = Eigen::Vector4d::Zero();
 
   explicit NormalEquations(double thickness_sigma_m) {
-    lhs.diagonal() << 1 / (kLoosePrior_m * kLoosePrior_m), 1 / (kLoosePrior_rad * kLoosePrior_rad), 1 / (thickness_sigma_m * thickness_sigma_m), 0;
+    lhs.diagonal() << 1 / (kLoosePrior_m * kLoosePrior_m), 1 / (kLoosePrior_rad * kLoosePrior_rad),
+        1 / (thickness_sigma_m * thickness_sigma_m), 0;
   }
   void AddRow(const Eigen::Vector4d& a, double value, double weight) {
     lhs += weight * weight * a * a.transpose();

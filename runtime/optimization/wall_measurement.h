@@ -15,7 +15,8 @@ struct WallMeasurement {
   Eigen::Vector2d deviation;   // (offset_m, yaw_rad), no prior, if there were no range bias; ...
   Eigen::Vector2d bias_gain;   // ... with a bias b it is deviation + b * bias_gain
   Eigen::Matrix2d covariance;  // of this wall's own observations and unknown thickness, and of how well poses tie it to the others
-  // What the wall's two faces say about the bias by the thickness they show, as a normal distribution; zero information if one face was seen.
+  // What the wall's two faces say about the bias by the thickness they show, as a normal distribution; zero information if one face was
+  // seen.
   double own_bias_m = 0, own_bias_information = 0;
   [[nodiscard]] Eigen::Vector2d At(double bias_m) const { return deviation + bias_m * bias_gain; }
 };

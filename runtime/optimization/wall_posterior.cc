@@ -39,7 +39,8 @@ double HalfOfTwoSigma(const std::vector<Normal>& mixture, double center) {
 
 }  // namespace
 
-WallEvidence WithoutPrior(const Eigen::Vector2d& estimate, const Eigen::Matrix2d& covariance, const Eigen::Vector2d& prior, const CouplingOptions& options) {
+WallEvidence WithoutPrior(const Eigen::Vector2d& estimate, const Eigen::Matrix2d& covariance, const Eigen::Vector2d& prior,
+                          const CouplingOptions& options) {
   const Eigen::Matrix2d posterior = covariance.inverse();
   Eigen::Matrix2d data = posterior;
   data.diagonal() -= prior;

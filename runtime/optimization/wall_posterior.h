@@ -14,7 +14,8 @@ struct WallEvidence {
   Eigen::Matrix2d covariance = Eigen::Matrix2d::Zero();
 };
 
-// Takes the wall's own prior, of inverse variances `prior`, out of its posterior. What was hardly seen is told as hardly known, never as less than that.
+// Takes the wall's own prior, of inverse variances `prior`, out of its posterior. What was hardly seen is told as hardly known, never as
+// less than that.
 [[nodiscard]] WallEvidence WithoutPrior(const Eigen::Vector2d& estimate, const Eigen::Matrix2d& covariance, const Eigen::Vector2d& prior,
                                         const CouplingOptions& options);
 
@@ -29,7 +30,7 @@ struct WallBelief {
   // Half of what the wall lies within of its estimate, either way, with 95.45 %: of a normal distribution the standard deviation.
   Eigen::Vector2d sigma = Eigen::Vector2d::Zero();  // offset_m, yaw_rad
 };
-[[nodiscard]] WallBelief BeliefOf(const WallEvidence& evidence, const std::vector<MeasuredElsewhere>& places, const Eigen::Vector2d& estimate,
-                                  const CouplingOptions& options);
+[[nodiscard]] WallBelief BeliefOf(const WallEvidence& evidence, const std::vector<MeasuredElsewhere>& places,
+                                  const Eigen::Vector2d& estimate, const CouplingOptions& options);
 
 }  // namespace plumb::runtime

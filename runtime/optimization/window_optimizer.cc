@@ -69,7 +69,8 @@ class Window {
     size_t num_earlier = 0;
     for (const Observation& o : observations) {
       if (o.keyframe >= first_) {
-        AddView({PlaneView(o.stats, NoiseOf(options_, map_.keyframes[o.keyframe]), observations.size())}, &observation_loss_, poses_[o.keyframe - first_].data(), plane);
+        AddView({PlaneView(o.stats, NoiseOf(options_, map_.keyframes[o.keyframe]), observations.size())}, &observation_loss_,
+                poses_[o.keyframe - first_].data(), plane);
         continue;
       }
       earlier.Add(o.stats.Transformed(map_.keyframes[o.keyframe].T_map_kf));
@@ -107,7 +108,8 @@ class Window {
 std::vector<Eigen::Isometry3d> OptimizeWindow(const SGraph& map, size_t count, const JointOptions& options) {
   if (count == 0 || map.keyframes.size() <= count) return {};
   const size_t first = map.keyframes.size() - count;
-  const bool any_merged = std::any_of(map.keyframes.begin() + static_cast<std::ptrdiff_t>(first), map.keyframes.end(), [](const Keyframe& k) { return k.merged.has_value(); });
+  const bool any_merged = std::any_of(map.keyframes.begin() + static_cast<std::ptrdiff_t>(first), map.keyframes.end(),
+                                      [](const Keyframe& k) { return k.merged.has_value(); });
   if (any_merged) return {};
   return Window(map, first, options).Solve();
 }

@@ -5,7 +5,8 @@
 //   compile_benchmark PLAN.ifc|FOLDER...     -n RUNS: the best of so many runs counts (3)
 //                                            -c: processor time instead of the wall clock, for a busy machine; assimp is left out then
 // A reader that is not installed, or fails on a plan, shows as `-`. Goals: web-ifc at least 3 times slower on files over 1 MB and on the
-// sum, scan above 300 MB/s, memory under 6 times the file, opening under 2 ms, aliasing forecast under 10 % of the compile; what misses one is marked with `!`.
+// sum, scan above 300 MB/s, memory under 6 times the file, opening under 2 ms, aliasing forecast under 10 % of the compile; what misses one
+// is marked with `!`.
 #include <fmt/core.h>
 #include <unistd.h>
 
@@ -140,14 +141,17 @@ std::optional<Row> Measure(const fs::path& plan, const fs::path& folder, const O
     if (!options.cpu) KeepLeast(row.assimp_ms, Assimp_ms(plan));
   }
   row.agraph_mb = static_cast<double>(fs::file_size(agraph)) / kMegabyte;
-  row.forecast_ms = BestInChild_ms(options, [&] { return ReadAGraphFile(agraph); }, [](Expected<AGraph>& graph) { compiler::ForecastAliases({}, *graph); });
+  row.forecast_ms = BestInChild_ms(
+      options, [&] { return ReadAGraphFile(agraph); }, [](Expected<AGraph>& graph) { compiler::ForecastAliases({}, *graph); });
   row.open_ms = BestInChild_ms(options, [] { return 0; }, [&](int) { (void)AGraphFile::Open(agraph); });
   row.load_ms = BestInChild_ms(options, [] { return 0; }, [&](int) { (void)ReadAGraphFile(agraph); });
   row.scan_mb_s = 1000 * row.size_mb / std::max(1e-3, Scan_ms(plan, options));
   return row;
 }
 
-std::string Marked(const char* format, double value, bool missed) { return fmt::format(fmt::runtime(format), value) + (missed ? "!" : " "); }
+std::string Marked(const char* format, double value, bool missed) {
+  return fmt::format(fmt::runtime(format), value) + (missed ? "!" : " ");
+}
 
 // How much slower the other is.
 std::string Ratio(const std::optional<double>& other_ms, double own_ms, double at_least) {
@@ -228,9 +232,10 @@ int main(int argc, char** argv) {
   }
   std::string name = (fs::temp_directory_path() / "plumb-benchmark-XXXXXX").string();
   if (mkdtemp(name.data()) == nullptr) return 2;
-  if (const auto idle = InChild([] { return 0.0; })) fmt::print("{} time; a process that reads nothing has {:.1f} MB\n", options.cpu ? "processor" : "wall clock", idle->peak_mb);
-  fmt::print("{:<38} {:>6} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "plan", "MB", "plumb ms", "web-ifc", "ratio ", "assimp",
-             "ratio ", "scan MB/s", "peak MB ", "peak/file", "agraph MB", "open ms ", "load ms", "alias % ");
+  if (const auto idle = InChild([] { return 0.0; }))
+    fmt::print("{} time; a process that reads nothing has {:.1f} MB\n", options.cpu ? "processor" : "wall clock", idle->peak_mb);
+  fmt::print("{:<38} {:>6} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n", "plan", "MB", "plumb ms", "web-ifc",
+             "ratio ", "assimp", "ratio ", "scan MB/s", "peak MB ", "peak/file", "agraph MB", "open ms ", "load ms", "alias % ");
   std::vector<Row> rows;
   for (const fs::path& plan : PlansIn(arguments)) {
     if (const auto row = Measure(plan, name, options)) {

@@ -1,8 +1,10 @@
 // Hours of driving without hours of waiting: memory, and whether the graph keeps up, every five simulated minutes.
-//   endurance_benchmark PLAN.agraph [MINUTES [SCANS_PER_S]]    60 and 10 by default; keyframes, and so the map, grow the same with 5 scans a second
+//   endurance_benchmark PLAN.agraph [MINUTES [SCANS_PER_S]]    60 and 10 by default; keyframes, and so the map, grow the same with 5 scans
+//   a second
 //
-// A second process simulates the scans (VLP-16, no deviations) and hands them on through a pipe, so that the memory shown is the localizer's.
-// Scans are fed as fast as it goes, odometry and graph in turn; `behind` is how far the graph would lag at that rate on a core of its own.
+// A second process simulates the scans (VLP-16, no deviations) and hands them on through a pipe, so that the memory shown is the
+// localizer's. Scans are fed as fast as it goes, odometry and graph in turn; `behind` is how far the graph would lag at that rate on a core
+// of its own.
 #include <fmt/core.h>
 #include <malloc.h>
 #include <sys/wait.h>
@@ -104,8 +106,8 @@ double InUse_MB() {
 
 int Localize(const AGraph& plan, double period_s, int in) {
   runtime::Localizer localizer(plan);
-  fmt::print("{:>7} {:>9} {:>10} {:>10} {:>10} {:>13} {:>10} {:>9} {:>9} {:>10}\n", "minute", "RSS MB", "in use MB", "keyframes", "surfaces", "odometry ms", "graph ms", "behind s",
-             "found %", "worst m");
+  fmt::print("{:>7} {:>9} {:>10} {:>10} {:>10} {:>13} {:>10} {:>9} {:>9} {:>10}\n", "minute", "RSS MB", "in use MB", "keyframes",
+             "surfaces", "odometry ms", "graph ms", "behind s", "found %", "worst m");
   fmt::print("{:>7} {:>9.0f} {:>10.0f}\n", 0, Memory_MB(), InUse_MB());
   double odometry_ms = 0, graph_ms = 0, behind_ms = 0, worst_behind_ms = 0, worst_m = 0, next_s = kReportEvery_s;
   size_t scans = 0, localized = 0;
@@ -118,9 +120,9 @@ int Localize(const AGraph& plan, double period_s, int in) {
       for (const runtime::Keyframe& k : localizer.map().keyframes) keyframes += !k.merged;
       for (const runtime::MapSurface& s : localizer.map().surfaces) surfaces += !s.observations.empty();
       const double n = static_cast<double>(std::max<size_t>(scans, 1));
-      fmt::print("{:>7.0f} {:>9.0f} {:>10.0f} {:>5}/{:<5} {:>4}/{:<5} {:>12.1f} {:>10.1f} {:>9.1f} {:>9.1f} {:>10.3f}\n", scan.stamp_s / 60, Memory_MB(), InUse_MB(), keyframes,
-                 localizer.map().keyframes.size(), surfaces, localizer.map().surfaces.size(), odometry_ms / n, graph_ms / n, worst_behind_ms / 1e3,
-                 100.0 * static_cast<double>(localized) / n, worst_m);
+      fmt::print("{:>7.0f} {:>9.0f} {:>10.0f} {:>5}/{:<5} {:>4}/{:<5} {:>12.1f} {:>10.1f} {:>9.1f} {:>9.1f} {:>10.3f}\n", scan.stamp_s / 60,
+                 Memory_MB(), InUse_MB(), keyframes, localizer.map().keyframes.size(), surfaces, localizer.map().surfaces.size(),
+                 odometry_ms / n, graph_ms / n, worst_behind_ms / 1e3, 100.0 * static_cast<double>(localized) / n, worst_m);
       std::fflush(stdout);
       odometry_ms = graph_ms = worst_behind_ms = worst_m = 0;
       scans = localized = 0;
@@ -130,7 +132,9 @@ int Localize(const AGraph& plan, double period_s, int in) {
     scan.stamp_s = header.stamp_s;
     scan.points.resize(header.points);
     scan.time_s.resize(header.points);
-    if (!ReadAll(in, scan.points.data(), header.points * sizeof(Eigen::Vector3f)) || !ReadAll(in, scan.time_s.data(), header.points * sizeof(float))) break;
+    if (!ReadAll(in, scan.points.data(), header.points * sizeof(Eigen::Vector3f)) ||
+        !ReadAll(in, scan.time_s.data(), header.points * sizeof(float)))
+      break;
     runtime::Stopwatch watch;
     const runtime::RegisteredScan registered = localizer.Register(scan, std::nullopt);
     odometry_ms += watch.Lap();

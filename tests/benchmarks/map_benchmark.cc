@@ -1,7 +1,9 @@
-// How well the S-Graph maps a building, with no plan given to it: a drive simulated in each plan, then odometry, mapping and the final polish.
+// How well the S-Graph maps a building, with no plan given to it: a drive simulated in each plan, then odometry, mapping and the final
+// polish.
 //   map_benchmark [--seconds S] [--noise M] [--clutter N] [--seed N] PLAN.agraph...
-// One row for each plan. ATE: of the scans' positions, rms, with the first two seconds laid on the truth. Walls: the plan's plane surfaces of which 20
-// scans or more have seen over 1 m, as built, against the map after that alignment: found if half of what was seen of them is in the map.
+// One row for each plan. ATE: of the scans' positions, rms, with the first two seconds laid on the truth. Walls: the plan's plane surfaces
+// of which 20 scans or more have seen over 1 m, as built, against the map after that alignment: found if half of what was seen of them is
+// in the map.
 #include <fmt/core.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -52,7 +54,8 @@ struct Face {
   [[nodiscard]] double length_m() const { return (end - start).norm(); }
   [[nodiscard]] Eigen::Vector2d normal() const { return {-direction().y(), direction().x()}; }
   [[nodiscard]] double seen_m() const {
-    return kBin_m * static_cast<double>(std::count_if(bin_scans.begin(), bin_scans.end(), [](uint32_t scans) { return scans >= kMinScans; }));
+    return kBin_m *
+           static_cast<double>(std::count_if(bin_scans.begin(), bin_scans.end(), [](uint32_t scans) { return scans >= kMinScans; }));
   }
 };
 
@@ -77,12 +80,15 @@ std::vector<Face> BuiltFaces(const AGraph& plan, const tools::SimulateSummary& s
   std::vector<Face> out;
   for (size_t i = 0; i < plan.surfaces.size(); ++i) {
     const Surface& s = plan.surfaces[i];
-    if (s.arc || s.storey != simulated.storey || simulated.surface_scans[i] < kMinScans || (s.end - s.start).norm() < kMinLength_m || std::abs(s.normal.z()) > 0.1) continue;
+    if (s.arc || s.storey != simulated.storey || simulated.surface_scans[i] < kMinScans || (s.end - s.start).norm() < kMinLength_m ||
+        std::abs(s.normal.z()) > 0.1)
+      continue;
     Eigen::Isometry2d T = Eigen::Isometry2d::Identity();  // the built face, given the planned one
     const Eigen::Vector2d mid = 0.5 * (s.start + s.end), normal = s.normal.head<2>().normalized();
     for (const tools::WallDisplacement& wall : simulated.walls) {
       for (const tools::SurfaceDisplacement& d : wall.surfaces) {
-        if (d.surface == SurfaceId(i)) T = Eigen::Translation2d(mid + d.translation_m * normal) * Eigen::Rotation2Dd(d.rotation_rad) * Eigen::Translation2d(-mid);
+        if (d.surface == SurfaceId(i))
+          T = Eigen::Translation2d(mid + d.translation_m * normal) * Eigen::Rotation2Dd(d.rotation_rad) * Eigen::Translation2d(-mid);
       }
     }
     out.push_back({T * s.start, T * s.end, s.z_min_m, s.z_max_m, i, 0, {}});
@@ -130,7 +136,8 @@ std::vector<Face> MappedFaces(const SGraph& map, const Eigen::Isometry3d& T_plan
 
 bool LiesOn(const Face& built, const Face& mapped) {
   const auto [from, to] = Overlap(built, mapped);
-  return to > from && std::abs(TurnBetween_rad(built, mapped)) < kSameDirection_rad && std::abs(OffsetAt_m(built, mapped, 0.5 * (from + to))) < kSamePlane_m;
+  return to > from && std::abs(TurnBetween_rad(built, mapped)) < kSameDirection_rad &&
+         std::abs(OffsetAt_m(built, mapped, 0.5 * (from + to))) < kSamePlane_m;
 }
 
 struct WallScore {
@@ -143,7 +150,8 @@ double SharedCells(const MapSurface& a, const MapSurface& b) {
   const MapSurface &small = a.cells.size() < b.cells.size() ? a : b, &large = a.cells.size() < b.cells.size() ? b : a;
   const auto cell = [&](const MapSurface& s, const Eigen::Vector2f& c) {
     const Eigen::Vector2d p = s.start + static_cast<double>(c.x()) * (s.end - s.start).normalized();
-    return std::array<int, 2>{static_cast<int>(std::floor(10 * (p - large.start).dot((large.end - large.start).normalized()))), static_cast<int>(std::floor(10 * c.y()))};
+    return std::array<int, 2>{static_cast<int>(std::floor(10 * (p - large.start).dot((large.end - large.start).normalized()))),
+                              static_cast<int>(std::floor(10 * c.y()))};
   };
   std::set<std::array<int, 2>> known;
   for (const Eigen::Vector2f& c : large.cells) known.insert(cell(large, c));
@@ -173,7 +181,8 @@ WallScore ScoreWalls(const std::vector<Face>& built, const std::vector<Face>& ma
       best = &m;
     }
     if (kBin_m * static_cast<double>(std::count(mapped_bins.begin(), mapped_bins.end(), true)) < kMinShare * b.seen_m()) {
-      fmt::print(stderr, "  missed: ({:.2f} {:.2f}) to ({:.2f} {:.2f}), of which {:.2f} m were seen\n", b.start.x(), b.start.y(), b.end.x(), b.end.y(), b.seen_m());
+      fmt::print(stderr, "  missed: ({:.2f} {:.2f}) to ({:.2f} {:.2f}), of which {:.2f} m were seen\n", b.start.x(), b.start.y(), b.end.x(),
+                 b.end.y(), b.seen_m());
       continue;
     }
     ++out.found;
@@ -190,10 +199,13 @@ WallScore ScoreWalls(const std::vector<Face>& built, const std::vector<Face>& ma
       const Face &a = walls[i], &b = walls[j];
       const auto [from, to] = Overlap(a, b);
       if (to - from < kTwiceOverlap_m || std::abs(TurnBetween_rad(a, b)) > kSameDirection_rad) continue;
-      if (std::abs(OffsetAt_m(a, b, 0.5 * (from + to))) > kTwice_m || SharedCells(map.surfaces[a.surface], map.surfaces[b.surface]) < kTwiceShare) continue;
+      if (std::abs(OffsetAt_m(a, b, 0.5 * (from + to))) > kTwice_m ||
+          SharedCells(map.surfaces[a.surface], map.surfaces[b.surface]) < kTwiceShare)
+        continue;
       ++out.twice;
       for (const Face& f : {a, b}) {
-        fmt::print(stderr, "  twice: ({:.2f} {:.2f}) to ({:.2f} {:.2f}) from {:.2f} m to {:.2f} m high\n", f.start.x(), f.start.y(), f.end.x(), f.end.y(), f.z_min_m, f.z_max_m);
+        fmt::print(stderr, "  twice: ({:.2f} {:.2f}) to ({:.2f} {:.2f}) from {:.2f} m to {:.2f} m high\n", f.start.x(), f.start.y(),
+                   f.end.x(), f.end.y(), f.z_min_m, f.z_max_m);
       }
     }
   }
@@ -260,7 +272,8 @@ Eigen::Isometry3d StartAligned(const SGraph& map, const std::vector<ScanPlace>& 
     turns += q.coeffs() * q.coeffs().transpose();
   }
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  T.linear() = Eigen::Quaterniond(Eigen::Vector4d(Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(turns).eigenvectors().col(3))).toRotationMatrix();
+  T.linear() =
+      Eigen::Quaterniond(Eigen::Vector4d(Eigen::SelfAdjointEigenSolver<Eigen::Matrix4d>(turns).eigenvectors().col(3))).toRotationMatrix();
   Eigen::Vector3d shift = Eigen::Vector3d::Zero();
   for (size_t i = 0; i < n; ++i) shift += places[i].truth.translation() - T.linear() * PoseIn(map, places[i]).translation();
   T.translation() = shift / static_cast<double>(n);
@@ -287,15 +300,18 @@ double Mean(const std::vector<double>& values) {
 }
 
 void PrintHead() {
-  fmt::print("{:<32} {:>6} {:>7} {:>8} {:>8} {:>8} {:>11} {:>6} {:>9} {:>9} {:>9} {:>9} {:>8} {:>8} {:>8}\n", "plan", "s", "m", "odo cm", "ATE cm", "best cm", "walls", "twice",
-             "off mm", "95% mm", "turn deg", "95% deg", "odo ms", "p99 ms", "polish s");
+  fmt::print("{:<32} {:>6} {:>7} {:>8} {:>8} {:>8} {:>11} {:>6} {:>9} {:>9} {:>9} {:>9} {:>8} {:>8} {:>8}\n", "plan", "s", "m", "odo cm",
+             "ATE cm", "best cm", "walls", "twice", "off mm", "95% mm", "turn deg", "95% deg", "odo ms", "p99 ms", "polish s");
 }
 
-void PrintRow(const std::string& name, const tools::SimulateSummary& simulated, double odometry_m, double map_m, double best_m, WallScore& walls, const Driven& driven, double polish_ms) {
-  fmt::print("{:<32} {:>6.0f} {:>7.1f} {:>8.2f} {:>8.2f} {:>8.2f} {:>11} {:>6} {:>9.1f} {:>9.1f} {:>9.3f} {:>9.3f} {:>8.2f} {:>8.2f} {:>8.2f}\n", name, simulated.duration_s, simulated.path_m,
-             100 * odometry_m, 100 * map_m, 100 * best_m, fmt::format("{}/{}", walls.found, walls.walls), walls.twice, 1000 * Percentile(walls.offsets_m, 0.5),
-             1000 * Percentile(walls.offsets_m, 0.95), Percentile(walls.turns_deg, 0.5), Percentile(walls.turns_deg, 0.95), Mean(driven.odometry_ms),
-             Percentile(driven.odometry_ms, 0.99), polish_ms / 1000);
+void PrintRow(const std::string& name, const tools::SimulateSummary& simulated, double odometry_m, double map_m, double best_m,
+              WallScore& walls, const Driven& driven, double polish_ms) {
+  fmt::print(
+      "{:<32} {:>6.0f} {:>7.1f} {:>8.2f} {:>8.2f} {:>8.2f} {:>11} {:>6} {:>9.1f} {:>9.1f} {:>9.3f} {:>9.3f} {:>8.2f} {:>8.2f} {:>8.2f}\n",
+      name, simulated.duration_s, simulated.path_m, 100 * odometry_m, 100 * map_m, 100 * best_m,
+      fmt::format("{}/{}", walls.found, walls.walls), walls.twice, 1000 * Percentile(walls.offsets_m, 0.5),
+      1000 * Percentile(walls.offsets_m, 0.95), Percentile(walls.turns_deg, 0.5), Percentile(walls.turns_deg, 0.95),
+      Mean(driven.odometry_ms), Percentile(driven.odometry_ms, 0.99), polish_ms / 1000);
 }
 
 bool Run(const std::string& path, const tools::SimulateOptions& options, const std::string& folder) {
@@ -323,7 +339,8 @@ bool Run(const std::string& path, const tools::SimulateOptions& options, const s
   const SGraph& map = driven.mapper.graph();
   const Eigen::Isometry3d T_plan_map = StartAligned(map, driven.places);
   WallScore walls = ScoreWalls(built, MappedFaces(map, T_plan_map), map);
-  PrintRow(std::filesystem::path(path).stem().string(), *simulated, odometry_m, Ate_m(map, driven.places), BestAte_m(map, driven.places), walls, driven, polish_ms);
+  PrintRow(std::filesystem::path(path).stem().string(), *simulated, odometry_m, Ate_m(map, driven.places), BestAte_m(map, driven.places),
+           walls, driven, polish_ms);
   return true;
 }
 
@@ -352,6 +369,7 @@ int main(int argc, char** argv) {
   std::filesystem::remove_all(folder, ignored);
   rusage usage{};
   getrusage(RUSAGE_SELF, &usage);
-  fmt::print("seed {}, noise {} m, {} boxes; peak memory {} MB\n", options.seed, options.noise_m > 0 ? options.noise_m : 0.02, options.clutter, usage.ru_maxrss / 1024);
+  fmt::print("seed {}, noise {} m, {} boxes; peak memory {} MB\n", options.seed, options.noise_m > 0 ? options.noise_m : 0.02,
+             options.clutter, usage.ru_maxrss / 1024);
   return fine ? 0 : 2;
 }

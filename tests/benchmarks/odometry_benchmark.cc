@@ -44,7 +44,8 @@ class Timer {
     for (const double ms : times_ms_) sum_ms += ms;
     if (times_ms_.empty()) return "no scans";
     const auto n = times_ms_.size();
-    return fmt::format("{:.2f} ms/{} mean, {:.2f} p95, {:.2f} max", sum_ms / static_cast<double>(n), per, times_ms_[n * 95 / 100], times_ms_.back());
+    return fmt::format("{:.2f} ms/{} mean, {:.2f} p95, {:.2f} max", sum_ms / static_cast<double>(n), per, times_ms_[n * 95 / 100],
+                       times_ms_.back());
   }
 
  private:
@@ -121,7 +122,8 @@ Eigen::Isometry3d Aligned(const std::vector<Eigen::Vector3d>& from, const std::v
 }
 
 // Position errors after alignment; returns the alignment.
-std::optional<Eigen::Isometry3d> PrintAligned(const char* what, const std::vector<ScanPlace>& places, const std::function<Eigen::Vector3d(const ScanPlace&)>& position) {
+std::optional<Eigen::Isometry3d> PrintAligned(const char* what, const std::vector<ScanPlace>& places,
+                                              const std::function<Eigen::Vector3d(const ScanPlace&)>& position) {
   std::vector<Eigen::Vector3d> estimated, truth;
   for (const ScanPlace& place : places) {
     if (!place.truth) continue;
@@ -136,7 +138,8 @@ std::optional<Eigen::Isometry3d> PrintAligned(const char* what, const std::vecto
     sum_m2 += error_m * error_m;
     worst_m = std::max(worst_m, error_m);
   }
-  fmt::print("error of {}, best aligned: {:.4f} m rms, {:.4f} m worst\n", what, std::sqrt(sum_m2 / static_cast<double>(truth.size())), worst_m);
+  fmt::print("error of {}, best aligned: {:.4f} m rms, {:.4f} m worst\n", what, std::sqrt(sum_m2 / static_cast<double>(truth.size())),
+             worst_m);
   return T;
 }
 
@@ -178,9 +181,15 @@ void PrintSurfaces(const SGraph& graph, const Eigen::Isometry3d& T_plan_map) {
     const Plane plane = s.plane.Transformed(T_plan_map);
     const Eigen::Vector3d a = T_plan_map * Eigen::Vector3d(s.start.x(), s.start.y(), s.z_min_m);
     const Eigen::Vector3d b = T_plan_map * Eigen::Vector3d(s.end.x(), s.end.y(), s.z_max_m);
-    fmt::print("{:4} {} n ({:6.3f} {:6.3f} {:6.3f}) d {:7.3f} from ({:.2f} {:.2f} {:.2f}) to ({:.2f} {:.2f} {:.2f}), {:.2f} m2, {} keyframes, {:.0f} points\n", s.id,
-               s.kind == SurfaceKind::kWall ? "wall   " : s.kind == SurfaceKind::kFloor ? "floor  " : "ceiling", plane.n.x(), plane.n.y(), plane.n.z(), plane.d, a.x(),
-               a.y(), a.z(), b.x(), b.y(), b.z(), s.area_m2, s.observations.size(), s.num_points);
+    fmt::print(
+        "{:4} {} n ({:6.3f} {:6.3f} {:6.3f}) d {:7.3f} from ({:.2f} {:.2f} {:.2f}) to ({:.2f} {:.2f} {:.2f}), {:.2f} m2, {} keyframes, "
+        "{:.0f} points\n",
+        s.id,
+        s.kind == SurfaceKind::kWall    ? "wall   "
+        : s.kind == SurfaceKind::kFloor ? "floor  "
+                                        : "ceiling",
+        plane.n.x(), plane.n.y(), plane.n.z(), plane.d, a.x(), a.y(), a.z(), b.x(), b.y(), b.z(), s.area_m2, s.observations.size(),
+        s.num_points);
   }
 }
 
@@ -211,14 +220,15 @@ void Run(const Input& input, bool surfaces, const std::string& points_path) {
     const std::optional<Eigen::Isometry3d> truth = input.truth_at ? input.truth_at(scan->stamp_s) : std::nullopt;
     if (truth && !T_plan_odom) T_plan_odom = *truth * r.T_odom_lidar.inverse();
     const size_t num_keyframes = mapper.graph().keyframes.size();
-    places.push_back({num_keyframes > 0 ? num_keyframes - 1 : 0, r.T_odom_lidar, truth ? std::optional<Eigen::Vector3d>(truth->translation()) : std::nullopt});
+    places.push_back({num_keyframes > 0 ? num_keyframes - 1 : 0, r.T_odom_lidar,
+                      truth ? std::optional<Eigen::Vector3d>(truth->translation()) : std::nullopt});
     if (truth) errors.Add(truth->inverse() * *T_plan_odom * r.T_odom_lidar);
   }
   mapper.Flush();
   fmt::print("{} scans ({} failed), {:.1f} m\n", input.num_scans, failed, length_m);
   if (errors.count > 0) {
-    fmt::print("error, aligned at the start: {:.4f} m rms, {:.4f} m worst (z {:.4f} m), {:.3f} deg worst\n", std::sqrt(errors.square_sum_m2 / errors.count),
-               errors.worst_m, errors.worst_z_m, errors.worst_rad * 57.29578);
+    fmt::print("error, aligned at the start: {:.4f} m rms, {:.4f} m worst (z {:.4f} m), {:.3f} deg worst\n",
+               std::sqrt(errors.square_sum_m2 / errors.count), errors.worst_m, errors.worst_z_m, errors.worst_rad * 57.29578);
   }
   PrintAligned("odometry", places, [](const ScanPlace& place) -> Eigen::Vector3d { return place.T_odom_lidar.translation(); });
   const std::vector<Keyframe>& keyframes = mapper.graph().keyframes;
@@ -231,15 +241,16 @@ void Run(const Input& input, bool surfaces, const std::string& points_path) {
   }
   fmt::print("odometry: {}; {:.1f} iterations\n", odometry_timer.Summary(), iterations / static_cast<double>(input.num_scans));
   fmt::print("mapper:   {}; {} keyframes, {} surfaces\n", mapper_timer.Summary(), mapper.graph().keyframes.size(),
-             std::count_if(mapper.graph().surfaces.begin(), mapper.graph().surfaces.end(), [](const MapSurface& s) { return !s.observations.empty(); }));
+             std::count_if(mapper.graph().surfaces.begin(), mapper.graph().surfaces.end(),
+                           [](const MapSurface& s) { return !s.observations.empty(); }));
   PrintThickness(mapper.graph());
   if (!points_path.empty()) WritePoints(points_path, mapper.graph(), T_truth_map.value_or(Eigen::Isometry3d::Identity()));
   Timer rooms_timer;
   rooms_timer.Start();
   const UpperLayers layers = DeriveUpperLayers(mapper.graph());
   rooms_timer.Stop();
-  fmt::print("rooms:    {}; {} floors, {} rooms, {} doorways, {} corridors\n", rooms_timer.Summary("run"), layers.floors.size(), layers.rooms.size(),
-             layers.doorways.size(), layers.corridors.size());
+  fmt::print("rooms:    {}; {} floors, {} rooms, {} doorways, {} corridors\n", rooms_timer.Summary("run"), layers.floors.size(),
+             layers.rooms.size(), layers.doorways.size(), layers.corridors.size());
   if (surfaces) PrintSurfaces(mapper.graph(), T_plan_odom.value_or(Eigen::Isometry3d::Identity()));
 }
 

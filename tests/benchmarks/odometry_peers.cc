@@ -1,9 +1,9 @@
 // Odometry beside PCL's GICP and NDT, on one recording, scan by scan in turn: time per scan and error.
 //   odometry_peers REC [LEAF_M]
 // The peers register each scan, its motion during the sweep taken out with their last step, to the last scan that was at least half a metre
-// or 15 degrees away, starting from constant velocity. Their poses are of the middle of the sweep: with those of its start, a step taken too
-// long shifts the next one, and constant velocity does not settle. They get clouds thinned to LEAF_M, 0.1 m unless told:
-// coarser ones are faster and drift more. Plumb thins on its own. All on one thread.
+// or 15 degrees away, starting from constant velocity. Their poses are of the middle of the sweep: with those of its start, a step taken
+// too long shifts the next one, and constant velocity does not settle. They get clouds thinned to LEAF_M, 0.1 m unless told: coarser ones
+// are faster and drift more. Plumb thins on its own. All on one thread.
 #include <fmt/core.h>
 #include <pcl/filters/voxel_grid.h>
 #include <pcl/point_cloud.h>
@@ -87,7 +87,8 @@ class Peer : public Subject {
     const Eigen::AngleAxisd turn(step_.linear());
     for (size_t i = 0; i < scan.points.size(); ++i) {
       const double part = scan.time_s.empty() ? 0 : scan.time_s[i] / kPeriod_s - 0.5;
-      const Eigen::Vector3d p = Eigen::AngleAxisd(part * turn.angle(), turn.axis()) * scan.points[i].cast<double>() + part * step_.translation();
+      const Eigen::Vector3d p =
+          Eigen::AngleAxisd(part * turn.angle(), turn.axis()) * scan.points[i].cast<double>() + part * step_.translation();
       whole->push_back({static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z())});
     }
     pcl::VoxelGrid<pcl::PointXYZ> grid;
@@ -159,7 +160,8 @@ void Print(const std::vector<std::unique_ptr<Subject>>& subjects, std::vector<Re
   for (size_t i = 0; i < subjects.size(); ++i) {
     Result& r = results[i];
     fmt::print("{:<10} {:>8.2f} {:>8.2f} {:>8} {:>10.4f} {:>10.4f} {:>10}\n", subjects[i]->Name(), r.mean_ms(), r.p99_ms(),
-               fmt::format("{:.2f}", results[0].mean_ms() / r.mean_ms()), r.rms_m(), r.worst_m, fmt::format("{:.3f}", results[0].rms_m() / r.rms_m()));
+               fmt::format("{:.2f}", results[0].mean_ms() / r.mean_ms()), r.rms_m(), r.worst_m,
+               fmt::format("{:.3f}", results[0].rms_m() / r.rms_m()));
   }
   fmt::print("time and error: Plumb's as a share of the row's; ATE: position, rms, aligned at the start\n");
 }

@@ -43,7 +43,8 @@ class EndToEnd : public ::testing::Test {
 std::unique_ptr<test::ProgramFolder> EndToEnd::folder_;
 
 TEST_F(EndToEnd, WritesEveryFileOfARun) {
-  for (const char* name : {"trajectory.tum", "trajectory_smoothed.tum", "verdicts.csv", "timing.csv", "map.ply", "sgraph.json", "deviations.json", "run.json"}) {
+  for (const char* name : {"trajectory.tum", "trajectory_smoothed.tum", "verdicts.csv", "timing.csv", "map.ply", "sgraph.json",
+                           "deviations.json", "run.json"}) {
     EXPECT_TRUE(fs::exists(*folder_ / "run" / name)) << name;
   }
   const auto smoothed = runtime::ReadTum((*folder_ / "run/trajectory_smoothed.tum").string());
@@ -79,7 +80,9 @@ TEST_F(EndToEnd, FindsTheRoomsThatItDroveThrough) {
   EXPECT_GE(visited, 1);
   EXPECT_GE(sgraph.at("doorways").size(), 4u);
   for (const Json& doorway : sgraph.at("doorways")) {
-    const auto near = [&](const Json& planned) { return (test::PointOf(planned.at("position")) - test::PointOf(doorway.at("position"))).norm() < 0.1; };
+    const auto near = [&](const Json& planned) {
+      return (test::PointOf(planned.at("position")) - test::PointOf(doorway.at("position"))).norm() < 0.1;
+    };
     EXPECT_TRUE(std::any_of(plan.at("doorways").begin(), plan.at("doorways").end(), near)) << doorway;
   }
 }
@@ -96,7 +99,9 @@ TEST_F(EndToEnd, FindsAPlanarLaserInFurnishedOffices) {
   if (!fs::exists(recording + "/truth.tum")) GTEST_SKIP() << "the recording fr079 is not there";
   ASSERT_NE(folder_->Plumb("compile '" + recording + "/asbuilt.dxf' -q -o offices.agraph"), 2);
   EXPECT_EQ(folder_->Plumb("localize offices.agraph '" + recording + "' --start 53 --max-duration 40 -q -o planar/"), 0);
-  EXPECT_EQ(folder_->Plumb("evaluate planar/ --truth '" + recording + "' --json planar.json --require-localized-within 20 --require-ate 0.10"), 0);
+  EXPECT_EQ(
+      folder_->Plumb("evaluate planar/ --truth '" + recording + "' --json planar.json --require-localized-within 20 --require-ate 0.10"),
+      0);
   EXPECT_TRUE(folder_->Json("planar.json").at("in_plane").get<bool>());
   for (const auto& surface : folder_->Json("planar/deviations.json").at("surfaces")) EXPECT_EQ(surface.at("status"), "unobserved");
 }

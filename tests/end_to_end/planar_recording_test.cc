@@ -48,7 +48,8 @@ double MapError(const std::string& folder, bool with_wheels) {
     const OdometryResult r = odometry.Register(*scan, given);
     failed += r.ok ? 0 : 1;
     if (r.ok) mapper.AddScan(r.deskewed, r.T_odom_lidar, r.step_covariance);
-    if (at && r.ok) placed.push_back({mapper.graph().keyframes.empty() ? 0 : mapper.graph().keyframes.size() - 1, r.T_odom_lidar, at->translation()});
+    if (at && r.ok)
+      placed.push_back({mapper.graph().keyframes.empty() ? 0 : mapper.graph().keyframes.size() - 1, r.T_odom_lidar, at->translation()});
   }
   mapper.Flush();
   EXPECT_LE(failed, with_wheels ? 2 : 20);

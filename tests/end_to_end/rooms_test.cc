@@ -46,9 +46,12 @@ TEST(Rooms, OfTheFzkHouseAreThoseOfItsPlan) {
     // The doors between this room and others are open: in the simulation those within the house are.
     for (const Json& planned : plan.at("doorways")) {
       const Json& between = planned.at("rooms");
-      if (between.at(0).is_null() || between.at(1).is_null() || (between.at(0) != room.at("id") && between.at(1) != room.at("id"))) continue;
+      if (between.at(0).is_null() || between.at(1).is_null() || (between.at(0) != room.at("id") && between.at(1) != room.at("id")))
+        continue;
       ++doorways;
-      const auto near = [&](const Json& d) { return (test::PointOf(d.at("position")) - test::PointOf(planned.at("position"))).norm() < 0.1; };
+      const auto near = [&](const Json& d) {
+        return (test::PointOf(d.at("position")) - test::PointOf(planned.at("position"))).norm() < 0.1;
+      };
       EXPECT_TRUE(std::any_of(sgraph.at("doorways").begin(), sgraph.at("doorways").end(), near)) << planned.at("id");
     }
   }

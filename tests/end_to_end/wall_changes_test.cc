@@ -9,7 +9,9 @@ TEST(WallChanges, TheMissingWallOfTheFzkHouseIsFoundAndNothingIsMadeUp) {
   if (!std::filesystem::exists(source)) GTEST_SKIP() << source << " is not there";
   const test::ProgramFolder folder("wall_changes");
   ASSERT_EQ(folder.Plumb("compile '" + source + "' -o plan.agraph 2> compile.txt"), 0);
-  ASSERT_EQ(folder.Plumb("simulate plan.agraph --seed 5 --deviate 0 --missing 1 --unplanned 1 --clutter 6 --duration 90 --max-duration 90 -o rec/"), 0);
+  ASSERT_EQ(folder.Plumb(
+                "simulate plan.agraph --seed 5 --deviate 0 --missing 1 --unplanned 1 --clutter 6 --duration 90 --max-duration 90 -o rec/"),
+            0);
   ASSERT_EQ(folder.Plumb("localize plan.agraph rec/ -o run/"), 0);
   ASSERT_EQ(folder.Plumb("evaluate run/ --truth rec/ --json run/evaluation.json"), 0);
   const auto evaluation = folder.Json("run/evaluation.json");

@@ -54,7 +54,9 @@ TEST_F(WrongPlans, TheRightOneIsFound) {
   EXPECT_EQ(folder_->Json("run/evaluation.json").at("wrong_fixes"), 0);
 }
 
-TEST_F(WrongPlans, ItsMirrorImageIsNot) { ExpectNoFixIn("<g class=\"Model\">", "<g class=\"Model\" transform=\"matrix(-1 0 0 1 2600 0)\">"); }
+TEST_F(WrongPlans, ItsMirrorImageIsNot) {
+  ExpectNoFixIn("<g class=\"Model\">", "<g class=\"Model\" transform=\"matrix(-1 0 0 1 2600 0)\">");
+}
 
 TEST_F(WrongPlans, ThreePercentLargerIsNot) { ExpectNoFixIn("width=\"2600cm\" height=\"1600cm\"", "width=\"2678cm\" height=\"1648cm\""); }
 

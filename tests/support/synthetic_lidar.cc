@@ -32,7 +32,8 @@ runtime::Scan SyntheticLidar::Sweep(const PoseAt& pose_at, double stamp_s) const
     const double azimuth_rad = -2 * std::numbers::pi * a / options_.azimuths;
     for (int r = 0; r < options_.rings; ++r) {
       const double elevation_rad = options_.half_fov_rad * (options_.rings > 1 ? 2.0 * r / (options_.rings - 1) - 1 : 0);
-      const Eigen::Vector3d d(std::cos(elevation_rad) * std::cos(azimuth_rad), std::cos(elevation_rad) * std::sin(azimuth_rad), std::sin(elevation_rad));
+      const Eigen::Vector3d d(std::cos(elevation_rad) * std::cos(azimuth_rad), std::cos(elevation_rad) * std::sin(azimuth_rad),
+                              std::sin(elevation_rad));
       runtime::Ray ray;
       ray.origin = (T.translation() - origin_).cast<float>();
       ray.direction = (T.linear() * d).cast<float>();
@@ -72,7 +73,8 @@ Eigen::Isometry3d Drive::At(double t_s) const {
   const double x = SmoothStep(std::clamp((t_s - leg->start_s) / (leg->end_s - leg->start_s), 0.0, 1.0));
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
   T.translation() << leg->from + x * (leg->to - leg->from), height_m_;
-  T.linear() = Eigen::AngleAxisd(leg->yaw_from_rad + x * (leg->yaw_to_rad - leg->yaw_from_rad), Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  T.linear() =
+      Eigen::AngleAxisd(leg->yaw_from_rad + x * (leg->yaw_to_rad - leg->yaw_from_rad), Eigen::Vector3d::UnitZ()).toRotationMatrix();
   return T;
 }
 
@@ -85,8 +87,18 @@ double Drive::length_m() const {
 Drive HouseDrive(int rounds, double height_m) {
   std::vector<Eigen::Vector2d> points = {{1, 1.2}};
   for (int i = 0; i < rounds; ++i) {
-    for (const Eigen::Vector2d& p : std::initializer_list<Eigen::Vector2d>{
-             {2.45, 2.0}, {2.45, 4.8}, {4.0, 5.0}, {2.45, 4.6}, {2.45, 2.4}, {4.0, 2.75}, {6.5, 2.75}, {7.5, 4.8}, {7.2, 1.2}, {6.0, 2.75}, {4.0, 2.75}, {1, 1.2}}) {
+    for (const Eigen::Vector2d& p : std::initializer_list<Eigen::Vector2d>{{2.45, 2.0},
+                                                                           {2.45, 4.8},
+                                                                           {4.0, 5.0},
+                                                                           {2.45, 4.6},
+                                                                           {2.45, 2.4},
+                                                                           {4.0, 2.75},
+                                                                           {6.5, 2.75},
+                                                                           {7.5, 4.8},
+                                                                           {7.2, 1.2},
+                                                                           {6.0, 2.75},
+                                                                           {4.0, 2.75},
+                                                                           {1, 1.2}}) {
       points.push_back(p);
     }
   }

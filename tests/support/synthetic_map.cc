@@ -82,7 +82,8 @@ void AddWallPiece(std::vector<Eigen::Vector3d> points, const Eigen::Vector2d& no
 void AddWallPieces(const PlaneHits& hits, const Eigen::Vector2d& normal, runtime::SGraph& map) {
   const Eigen::Vector2d along(normal.y(), -normal.x());
   std::vector<Eigen::Vector3d> sorted = hits.points;
-  std::sort(sorted.begin(), sorted.end(), [&](const auto& a, const auto& b) { return along.dot(a.template head<2>()) < along.dot(b.template head<2>()); });
+  std::sort(sorted.begin(), sorted.end(),
+            [&](const auto& a, const auto& b) { return along.dot(a.template head<2>()) < along.dot(b.template head<2>()); });
   std::vector<Eigen::Vector3d> piece;
   for (const Eigen::Vector3d& p : sorted) {
     if (!piece.empty() && along.dot(p.head<2>() - piece.back().head<2>()) > kGap_m) {

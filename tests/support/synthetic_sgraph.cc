@@ -24,8 +24,9 @@ Eigen::Isometry3d UprightPose(const Eigen::Vector2d& at, double yaw_rad) {
 }
 
 std::vector<Eigen::Isometry3d> Path() {
-  const std::vector<Eigen::Vector2d> corners{{1.5, 1.0}, {3.8, 1.0}, {3.8, 2.75}, {6.2, 2.75}, {6.2, 1.2}, {8.0, 1.2}, {8.0, 4.8},
-                                             {6.2, 4.8}, {6.2, 2.75}, {2.45, 2.75}, {2.45, 4.8}, {1.0, 4.8}, {4.0, 4.8}, {2.45, 4.8}, {2.45, 1.5}};
+  const std::vector<Eigen::Vector2d> corners{{1.5, 1.0},  {3.8, 1.0}, {3.8, 2.75}, {6.2, 2.75}, {6.2, 1.2},
+                                             {8.0, 1.2},  {8.0, 4.8}, {6.2, 4.8},  {6.2, 2.75}, {2.45, 2.75},
+                                             {2.45, 4.8}, {1.0, 4.8}, {4.0, 4.8},  {2.45, 4.8}, {2.45, 1.5}};
   std::vector<Eigen::Isometry3d> poses;
   for (size_t i = 0; i + 1 < corners.size(); ++i) {
     const Eigen::Vector2d leg = corners[i + 1] - corners[i];
@@ -99,7 +100,8 @@ void AddKeyframes(Drive& drive, const DriveOptions& options, Random& random) {
   for (size_t k = 0; k < drive.T_plan_kf.size(); ++k) {
     if (k > 0) {
       Eigen::Isometry3d step = drive.T_plan_kf[k - 1].inverse() * drive.T_plan_kf[k];
-      step.translation() += Eigen::Vector3d(random.Normal(options.drift_m), random.Normal(options.drift_m), random.Normal(0.3 * options.drift_m));
+      step.translation() +=
+          Eigen::Vector3d(random.Normal(options.drift_m), random.Normal(options.drift_m), random.Normal(0.3 * options.drift_m));
       const auto tilt = [&] { return random.Normal(0.2 * options.drift_rad); };
       step.rotate(Eigen::AngleAxisd(random.Normal(options.drift_rad), Eigen::Vector3d::UnitZ()) *
                   Eigen::AngleAxisd(tilt(), Eigen::Vector3d::UnitX()) * Eigen::AngleAxisd(tilt(), Eigen::Vector3d::UnitY()));
@@ -139,7 +141,8 @@ void FillCells(MapSurface& s) {
   constexpr double kCell_m = 0.1;
   s.cells.clear();
   for (double u = 0.5 * kCell_m; u < s.length_m(); u += kCell_m) {
-    for (double z = s.z_min_m + 0.5 * kCell_m; z < s.z_max_m; z += kCell_m) s.cells.emplace_back(static_cast<float>(u), static_cast<float>(z));
+    for (double z = s.z_min_m + 0.5 * kCell_m; z < s.z_max_m; z += kCell_m)
+      s.cells.emplace_back(static_cast<float>(u), static_cast<float>(z));
   }
 }
 
@@ -155,7 +158,8 @@ Drive DriveThroughHouse(const AGraph& house, const DriveOptions& options) {
     for (SurfaceId id : room.surfaces) {
       const Surface& s = house.surfaces[id.index()];
       BuiltFace face{frames[s.wall.index()], {}, s.normal, 0};
-      if (s.wall.index() < options.thickness_errors_m.size()) face.half_thickness_error_m = 0.5 * options.thickness_errors_m[s.wall.index()];
+      if (s.wall.index() < options.thickness_errors_m.size())
+        face.half_thickness_error_m = 0.5 * options.thickness_errors_m[s.wall.index()];
       if (s.wall.index() < options.deviations.size()) face.deviation = options.deviations[s.wall.index()];
       face.normal = Eigen::AngleAxisd(face.deviation.yaw_rad, Eigen::Vector3d::UnitZ()) * s.normal;
       std::vector<size_t> in_front = views;  // a keyframe in a doorway does not see the wall it stands in
@@ -163,20 +167,23 @@ Drive DriveThroughHouse(const AGraph& house, const DriveOptions& options) {
       std::erase_if(in_front, [&](size_t k) { return face.normal.dot(drive.T_plan_kf[k].translation() - on_face) < 0.3; });
       AddSurface(drive, SurfaceKind::kWall, id, in_front, options.points_per_view, [&](size_t) {
         const Eigen::Vector2d xy = s.start + random.Uniform(0.05, 0.95) * (s.end - s.start);
-        return Eigen::Vector3d(face.At({xy.x(), xy.y(), random.Uniform(0.3, 1.9)}) + (options.range_bias_m + random.Normal(options.noise_m)) * face.normal);
+        return Eigen::Vector3d(face.At({xy.x(), xy.y(), random.Uniform(0.3, 1.9)}) +
+                               (options.range_bias_m + random.Normal(options.noise_m)) * face.normal);
       });
     }
     if (!options.floors) continue;
     AddSurface(drive, SurfaceKind::kFloor, SurfaceId(), views, options.points_per_view, [&](size_t k) {
       const Eigen::Vector3d at = drive.T_plan_kf[k].translation();
       const double angle = random.Uniform(0, 2 * std::numbers::pi), radius = random.Uniform(0.5, 1.5);
-      return Eigen::Vector3d(at.x() + radius * std::cos(angle), at.y() + radius * std::sin(angle), room.floor_z_m + random.Normal(options.noise_m));
+      return Eigen::Vector3d(at.x() + radius * std::cos(angle), at.y() + radius * std::sin(angle),
+                             room.floor_z_m + random.Normal(options.noise_m));
     });
   }
   return drive;
 }
 
-void AddPatch(Drive& drive, const Eigen::Vector2d& start, const Eigen::Vector2d& end, double z_min_m, double z_max_m, double range_m, uint64_t seed) {
+void AddPatch(Drive& drive, const Eigen::Vector2d& start, const Eigen::Vector2d& end, double z_min_m, double z_max_m, double range_m,
+              uint64_t seed) {
   Random random(seed);
   const Eigen::Vector2d along = (end - start).normalized(), normal(-along.y(), along.x());
   std::vector<size_t> views;

@@ -44,7 +44,8 @@ struct Drive {
 [[nodiscard]] Drive DriveThroughHouse(const AGraph& house, const DriveOptions& options = {});
 
 // Adds a flat thing between two points (free space to the left of start -> end), seen from all keyframes in front of it within `range_m`.
-void AddPatch(Drive& drive, const Eigen::Vector2d& start, const Eigen::Vector2d& end, double z_min_m, double z_max_m, double range_m, uint64_t seed);
+void AddPatch(Drive& drive, const Eigen::Vector2d& start, const Eigen::Vector2d& end, double z_min_m, double z_max_m, double range_m,
+              uint64_t seed);
 
 // Cells all over a wall's extent, as if every part of it had been seen.
 void FillCells(runtime::MapSurface& surface);

@@ -47,7 +47,8 @@ void CountWrongFixes(const Run& run, const runtime::Trajectory& truth, const Eva
 
 std::string EvaluateOptions::Check() const {
   const auto positive = [](const char* name, double value) {
-    return value > 0 && std::isfinite(value) ? std::string() : fmt::format("EvaluateOptions.{} = {}; must be a positive number", name, value);
+    return value > 0 && std::isfinite(value) ? std::string()
+                                             : fmt::format("EvaluateOptions.{} = {}; must be a positive number", name, value);
   };
   for (const std::string& message : {positive("wrong_fix_m", wrong_fix_m), positive("wrong_fix_rad", wrong_fix_rad),
                                      positive("max_truth_gap_s", max_truth_gap_s), positive("min_points", min_points)}) {

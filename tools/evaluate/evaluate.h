@@ -36,7 +36,9 @@ struct Evaluation {
   std::vector<WallResult> walls;
   std::vector<ChangeResult> missing, unplanned;
 
-  [[nodiscard]] double localized_ratio() const { return scans == 0 ? 0 : static_cast<double>(localized_scans) / static_cast<double>(scans); }
+  [[nodiscard]] double localized_ratio() const {
+    return scans == 0 ? 0 : static_cast<double>(localized_scans) / static_cast<double>(scans);
+  }
   [[nodiscard]] size_t CountWalls(WallOutcome outcome) const;
   // Over the walls found, accurately or not; 0 if there are none.
   [[nodiscard]] double max_translation_error_m() const;

@@ -45,13 +45,13 @@ Json WallToJson(const WallResult& w) {
 
 std::string PoseLine(const char* name, const PoseErrors& e) {
   if (e.count == 0) return fmt::format("{:<22} none has a truth\n", name);
-  return fmt::format("{:<22} ATE rmse {:.3f} m, mean {:.3f} m, max {:.3f} m; yaw rmse {:.2f} deg, max {:.2f} deg ({} poses)\n", name, e.rmse_m, e.mean_m,
-                     e.max_m, Degrees(e.yaw_rmse_rad), Degrees(e.yaw_max_rad), e.count);
+  return fmt::format("{:<22} ATE rmse {:.3f} m, mean {:.3f} m, max {:.3f} m; yaw rmse {:.2f} deg, max {:.2f} deg ({} poses)\n", name,
+                     e.rmse_m, e.mean_m, e.max_m, Degrees(e.yaw_rmse_rad), Degrees(e.yaw_max_rad), e.count);
 }
 
 std::string ChangesLine(const char* name, const std::vector<ChangeResult>& results) {
-  return fmt::format("{:<22} {} found, {} missed, {} unobserved, {} false\n", name, Count(results, WallOutcome::kFound), Count(results, WallOutcome::kMissed),
-                     Count(results, WallOutcome::kUnobserved), Count(results, WallOutcome::kFalse));
+  return fmt::format("{:<22} {} found, {} missed, {} unobserved, {} false\n", name, Count(results, WallOutcome::kFound),
+                     Count(results, WallOutcome::kMissed), Count(results, WallOutcome::kUnobserved), Count(results, WallOutcome::kFalse));
 }
 
 // Counts and shares as keys of the object itself, the walls in an array.
@@ -72,20 +72,23 @@ void WriteChanges(const std::string& name, const std::vector<ChangeResult>& resu
 
 void WriteWalls(const Evaluation& e, std::string& out) {
   auto write = std::back_inserter(out);
-  fmt::format_to(write, "{:<22} {} found, {} inaccurate, {} missed, {} unjudged, {} unobserved, {} false\n", "deviated walls", e.CountWalls(WallOutcome::kFound),
-                 e.CountWalls(WallOutcome::kInaccurate), e.CountWalls(WallOutcome::kMissed), e.CountWalls(WallOutcome::kUnjudged),
-                 e.CountWalls(WallOutcome::kUnobserved), e.CountWalls(WallOutcome::kFalse));
+  fmt::format_to(write, "{:<22} {} found, {} inaccurate, {} missed, {} unjudged, {} unobserved, {} false\n", "deviated walls",
+                 e.CountWalls(WallOutcome::kFound), e.CountWalls(WallOutcome::kInaccurate), e.CountWalls(WallOutcome::kMissed),
+                 e.CountWalls(WallOutcome::kUnjudged), e.CountWalls(WallOutcome::kUnobserved), e.CountWalls(WallOutcome::kFalse));
   out += ChangesLine("missing walls", e.missing);
   out += ChangesLine("unplanned walls", e.unplanned);
   if (e.walls.empty()) return;
-  fmt::format_to(write, "\n{:<24} {:>7} {:<10} {:>10} {:>20} {:>10} {:>9} {:>9} {:>9}\n", "wall", "surface", "outcome", "truth m", "measured m", "error m", "truth deg",
-                 "meas. deg", "error deg");
+  fmt::format_to(write, "\n{:<24} {:>7} {:<10} {:>10} {:>20} {:>10} {:>9} {:>9} {:>9}\n", "wall", "surface", "outcome", "truth m",
+                 "measured m", "error m", "truth deg", "meas. deg", "error deg");
   for (const WallResult& w : e.walls) {
     const bool reported = w.surface.valid(), found = w.measured();
-    const auto number = [](bool show, int digits, double value) { return show ? fmt::format("{:+.{}f}", value, digits) : std::string("-"); };
+    const auto number = [](bool show, int digits, double value) {
+      return show ? fmt::format("{:+.{}f}", value, digits) : std::string("-");
+    };
     const std::string measured = reported ? fmt::format("{:+.3f} +- {:.3f}", w.measured_translation_m, w.sigma_translation_m) : "-";
     fmt::format_to(write, "{:<24} {:>7} {:<10} {:>+10.3f} {:>20} {:>10} {:>+9.2f} {:>9} {:>9}\n", w.name.empty() ? w.guid : w.name,
-                   reported ? fmt::format("{}", w.surface.value) : "-", WallOutcomeName(w.outcome), w.true_translation_m, measured, found ? fmt::format("{:.3f}", w.error_translation_m) : "-", w.true_rotation_deg,
+                   reported ? fmt::format("{}", w.surface.value) : "-", WallOutcomeName(w.outcome), w.true_translation_m, measured,
+                   found ? fmt::format("{:.3f}", w.error_translation_m) : "-", w.true_rotation_deg,
                    number(reported, 2, w.measured_rotation_deg), found ? fmt::format("{:.2f}", w.error_rotation_deg) : "-");
   }
 }

@@ -55,7 +55,8 @@ Expected<Truth> ParseTruth(const std::string& json, const std::string& source) {
     for (const Json& m : root.value("missing", Json::array())) truth.missing.push_back({m.at("wall_guid"), m.at("rays_through")});
     for (const Json& u : root.value("unplanned", Json::array())) {
       truth.unplanned.push_back({ParsePolygon(u.at("polygon")), u.at("points")});
-      if (truth.unplanned.back().polygon.size() < 3) return Fail(ErrorCode::kNotARecording, fmt::format("`{}`: a polygon of `unplanned` has fewer than 3 corners", source));
+      if (truth.unplanned.back().polygon.size() < 3)
+        return Fail(ErrorCode::kNotARecording, fmt::format("`{}`: a polygon of `unplanned` has fewer than 3 corners", source));
     }
     const Json points = root.value("surface_points", Json::object());
     for (const auto& [key, count] : points.items()) {
@@ -84,7 +85,8 @@ Expected<Truth> ReadTruth(const std::string& recording_folder) {
     truth = std::move(*parsed);
   }
   if (!std::filesystem::exists(tum)) {
-    return Fail(ErrorCode::kNotARecording, fmt::format("`{}` has no truth.tum; without it there is nothing to compare with", recording_folder));
+    return Fail(ErrorCode::kNotARecording,
+                fmt::format("`{}` has no truth.tum; without it there is nothing to compare with", recording_folder));
   }
   auto trajectory = runtime::ReadTum(tum);
   if (!trajectory) return tl::unexpected(trajectory.error());

@@ -32,8 +32,9 @@ struct WallResult {
   [[nodiscard]] bool measured() const { return outcome == WallOutcome::kFound || outcome == WallOutcome::kInaccurate; }
 };
 
-// One entry per wall that deviates or is reported to (missing walls are CompareMissing()'s), by outcome, then by guid. Walls are told apart by wall_guid. A wall counts as observed
-// when at least `min_points` returns hit one of its surfaces (truth.json), or where that was not recorded, when the run says so.
+// One entry per wall that deviates or is reported to (missing walls are CompareMissing()'s), by outcome, then by guid. Walls are told apart
+// by wall_guid. A wall counts as observed when at least `min_points` returns hit one of its surfaces (truth.json), or where that was not
+// recorded, when the run says so.
 [[nodiscard]] std::vector<WallResult> CompareWalls(const Truth& truth, const Deviations& reported, double min_points);
 
 }  // namespace plumb::tools

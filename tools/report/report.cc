@@ -83,8 +83,8 @@ std::string Figure(const AGraph& plan, StoreyId storey, const Run& run, const st
       "<g class=\"layer-rooms\">\n{}</g>\n<g class=\"layer-surfaces\">\n{}</g>\n{}</svg></figure>\n",
       EscapeXml(plan.storeys[storey.index()].name), Decimal(sheet.width()), Decimal(sheet.height()), DrawFloorPlan(plan, storey, sheet),
       DrawSurfaces(plan, storey, run.deviations, limit_m, sheet) + DrawUnplanned(plan, storey, run.deviations, sheet),
-      DrawTrajectory(plan, storey, run, sheet) + (open ? DrawPlaces(plan, storey, *open, sheet) : ""), DrawRoomLabels(plan, storey, sheet), DrawWallNumbers(plan, storey, rows, sheet),
-      DrawScaleBar(sheet, 30, sheet.height() - 45));
+      DrawTrajectory(plan, storey, run, sheet) + (open ? DrawPlaces(plan, storey, *open, sheet) : ""), DrawRoomLabels(plan, storey, sheet),
+      DrawWallNumbers(plan, storey, rows, sheet), DrawScaleBar(sheet, 30, sheet.height() - 45));
 }
 
 // Storeys that the robot was or may be on; all of them where nothing is known.
@@ -252,8 +252,8 @@ Expected<std::string> RunToHtml(const AGraph& plan, const Run& run, const RunInf
       "it</p>\n{5}{6}<h2>Plan</h2>\n{7}{8}{9}{10}"
       "<script>\n{11}</script>\n</body></html>\n",
       title, FloorPlanStyle(), DeviationStyle(), TrajectoryStyle() + PlaceStyle(), PageStyle(), Tiles(info, run.deviations, rows),
-      Notes(info, run.deviations), Figures(plan, run, rows) + (OpenTry(run) ? PlacesHtml(*OpenTry(run)) : ""), WallTable(plan, rows) + UnplannedTable(plan, run.deviations),
-      RoomTable(plan, run.deviations), Footer(info), PageScript());
+      Notes(info, run.deviations), Figures(plan, run, rows) + (OpenTry(run) ? PlacesHtml(*OpenTry(run)) : ""),
+      WallTable(plan, rows) + UnplannedTable(plan, run.deviations), RoomTable(plan, run.deviations), Footer(info), PageScript());
 }
 
 }  // namespace plumb::tools

@@ -11,7 +11,7 @@ namespace plumb::tools {
 namespace {
 
 constexpr double kMargin_m = 0.5;
-constexpr double kLevel_m = 0.25;      // rooms whose floors are said to differ by more are on another level; the floor itself decides within
+constexpr double kLevel_m = 0.25;  // rooms whose floors are said to differ by more are on another level; the floor itself decides within
 constexpr double kFloorDepth_m = 0.1;  // the robot may roll down a step of this height
 constexpr double kMaxCells = 64e6;     // 400 m x 400 m
 

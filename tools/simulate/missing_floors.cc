@@ -65,7 +65,8 @@ class LevelBuilder {
     const auto first = static_cast<uint32_t>(house_.mesh.vertices.size());
     for (const Vector2d& p : corners) house_.mesh.vertices.push_back((Eigen::Vector3d(p.x(), p.y(), z_m) - house_.origin).cast<float>());
     for (const auto& [b, c] : {std::pair{1U, 2U}, std::pair{2U, 3U}}) {
-      house_.mesh.triangles.push_back(from_above ? Triangle{first, first + b, first + c, element_} : Triangle{first, first + c, first + b, element_});
+      house_.mesh.triangles.push_back(from_above ? Triangle{first, first + b, first + c, element_}
+                                                 : Triangle{first, first + c, first + b, element_});
     }
   }
 

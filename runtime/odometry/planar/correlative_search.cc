@@ -42,7 +42,8 @@ LikelihoodGrid::LikelihoodGrid(std::span<const Eigen::Vector2d> points, const Ei
   std::array<uint8_t, kSide * kSide> kernel{};
   for (int i = 0; i < kSide * kSide; ++i) {
     const int dx = i % kSide - kKernelRadius, dy = i / kSide - kKernelRadius;
-    kernel[static_cast<size_t>(i)] = static_cast<uint8_t>(std::lround(255 * std::exp(-0.5 * (dx * dx + dy * dy) * std::pow(kCell_m / kSigma_m, 2))));
+    kernel[static_cast<size_t>(i)] =
+        static_cast<uint8_t>(std::lround(255 * std::exp(-0.5 * (dx * dx + dy * dy) * std::pow(kCell_m / kSigma_m, 2))));
   }
   std::vector<uint8_t> finest(static_cast<size_t>(width_) * static_cast<size_t>(height_), 0);
   std::vector<bool> done(finest.size(), false);
@@ -61,7 +62,8 @@ LikelihoodGrid::LikelihoodGrid(std::span<const Eigen::Vector2d> points, const Ei
     const std::vector<uint8_t>& finer = levels_.back();
     const int step = 1 << (level - 1);
     std::vector<uint8_t> across(finer), coarser(finer.size());
-    for (size_t i = 0; i + static_cast<size_t>(step) < finer.size(); ++i) across[i] = std::max(finer[i], finer[i + static_cast<size_t>(step)]);
+    for (size_t i = 0; i + static_cast<size_t>(step) < finer.size(); ++i)
+      across[i] = std::max(finer[i], finer[i + static_cast<size_t>(step)]);
     coarser = across;
     const size_t down = static_cast<size_t>(step) * static_cast<size_t>(width_);
     for (size_t i = 0; i + down < finer.size(); ++i) coarser[i] = std::max(across[i], across[i + down]);
@@ -99,7 +101,8 @@ SearchResult LikelihoodGrid::Search(std::span<const Eigen::Vector2d> points, con
   double far_m = 1.0;
   for (const Eigen::Vector2d& p : points) far_m = std::max(far_m, std::min(p.norm(), kFarRange_m));
   const double step_rad = kCell_m / far_m;
-  const int num_turns = static_cast<int>(std::ceil(window.half_rad / step_rad)), reach = static_cast<int>(std::ceil(window.half_m / kCell_m));
+  const int num_turns = static_cast<int>(std::ceil(window.half_rad / step_rad)),
+            reach = static_cast<int>(std::ceil(window.half_m / kCell_m));
   std::vector<Turned> turns;
   for (int k = -num_turns; k <= num_turns; ++k) {
     Turned turned{k * step_rad, {}};

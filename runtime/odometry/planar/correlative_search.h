@@ -1,6 +1,7 @@
 // Exhaustive search for a planar scan's pose on a likelihood grid, by branch and bound.
 //
-// Olson, "Real-time correlative scan matching", ICRA 2009; the bounds as in Hess et al., "Real-time loop closure in 2D LIDAR SLAM", ICRA 2016.
+// Olson, "Real-time correlative scan matching", ICRA 2009; the bounds as in Hess et al., "Real-time loop closure in 2D LIDAR SLAM", ICRA
+// 2016.
 #pragma once
 
 #include <Eigen/Core>
@@ -34,8 +35,9 @@ class LikelihoodGrid {
   // `points`: of the map. What lies further than max_range_m beyond `center` is left out. O(points + cells).
   LikelihoodGrid(std::span<const Eigen::Vector2d> points, const Eigen::Vector2d& center, double max_range_m);
 
-  // The pose on the search's grid (5 cm, and turns that move the farthest points by as much) with the highest score, exactly: log prior plus the
-  // points' log likelihoods. `points` in the sensor's levelled frame. Typically under a millisecond to some milliseconds for a metre and half a radian.
+  // The pose on the search's grid (5 cm, and turns that move the farthest points by as much) with the highest score, exactly: log prior
+  // plus the points' log likelihoods. `points` in the sensor's levelled frame. Typically under a millisecond to some milliseconds for a
+  // metre and half a radian.
   [[nodiscard]] SearchResult Search(std::span<const Eigen::Vector2d> points, const PlanarPrior& prior, const SearchWindow& window) const;
 
  private:
@@ -44,7 +46,8 @@ class LikelihoodGrid {
 
   // Of cell (x, y) and those up to 2^level - 1 beyond it in either direction, the highest likelihood.
   [[nodiscard]] uint8_t At(int level, int x, int y) const {
-    return x >= 0 && y >= 0 && x < width_ && y < height_ ? levels_[static_cast<size_t>(level)][static_cast<size_t>(y * width_ + x)] : uint8_t{0};
+    return x >= 0 && y >= 0 && x < width_ && y < height_ ? levels_[static_cast<size_t>(level)][static_cast<size_t>(y * width_ + x)]
+                                                         : uint8_t{0};
   }
   [[nodiscard]] double Score(const Turned& turned, const Node& node, const PlanarPrior& prior) const;
 

@@ -33,7 +33,8 @@ void LineMap::Insert(const PlanarScan& scan, const Pose2& pose) {
     const auto [cell, is_new] = index_.Insert(CellKey(p));
     if (is_new) first_.push_back(VoxelIndex::kNone);
     uint32_t at = first_[cell];
-    while (at != VoxelIndex::kNone && lines_[at].normal_sum.dot(normal) < kSameFacingCos * lines_[at].normal_sum.norm()) at = lines_[at].next;
+    while (at != VoxelIndex::kNone && lines_[at].normal_sum.dot(normal) < kSameFacingCos * lines_[at].normal_sum.norm())
+      at = lines_[at].next;
     if (at == VoxelIndex::kNone) {
       at = static_cast<uint32_t>(lines_.size());
       lines_.emplace_back().next = first_[cell];

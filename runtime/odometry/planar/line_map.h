@@ -1,6 +1,7 @@
 // Short lines ("surfels") on a square grid: what planar scans are registered to.
 //
-// A cell may hold several lines, told apart by the direction they face: the two walls of a corner or the two faces of a thin wall never mix.
+// A cell may hold several lines, told apart by the direction they face: the two walls of a corner or the two faces of a thin wall never
+// mix.
 #pragma once
 
 #include <Eigen/Core>

@@ -97,13 +97,15 @@ PlanarPrior PlanarOdometry::Impl::Predict(double next_stamp_s, const std::option
   prior.sigma_m = kFloor_m;
   prior.sigma_rad = kFloor_rad;
   // A given odometry that jumps between two sweeps was restarted: its step says nothing.
-  const bool continues = given && last_given &&
-                         (last_given->T_start.translation() - given->T_start.translation()).norm() <= kMaxGivenSpeed_mps * std::max(dt_s, 0.1);
+  const bool continues =
+      given && last_given &&
+      (last_given->T_start.translation() - given->T_start.translation()).norm() <= kMaxGivenSpeed_mps * std::max(dt_s, 0.1);
   if (continues) {
     const Pose2 moved = Planar(last_given->T_start.inverse() * given->T_start);
     prior.mean = pose * moved;
     prior.sigma_m += slip * (kGivenShare * moved.t_m.norm() + kGivenDrift_mprs * std::sqrt(dt_s));
-    prior.sigma_rad += slip * (kGivenTurnShare * std::abs(moved.yaw_rad) + kGivenTurn_radpm * moved.t_m.norm() + kGivenDrift_radprs * std::sqrt(dt_s));
+    prior.sigma_rad +=
+        slip * (kGivenTurnShare * std::abs(moved.yaw_rad) + kGivenTurn_radpm * moved.t_m.norm() + kGivenDrift_radprs * std::sqrt(dt_s));
   } else {
     const double used_s = std::min(dt_s, kMaxPrediction_s);
     prior.mean = pose * MotionAt(twist, used_s);
@@ -148,7 +150,8 @@ PlanarRegistrationOptions PlanarOdometry::Impl::Registration(const Pose2& during
   return registration;
 }
 
-PlanarRegistration PlanarOdometry::Impl::Align(const PlanarScan& scan, const PlanarPrior& prior, const PlanarRegistrationOptions& registration) {
+PlanarRegistration PlanarOdometry::Impl::Align(const PlanarScan& scan, const PlanarPrior& prior,
+                                               const PlanarRegistrationOptions& registration) {
   SearchWindow window{std::min(3 * prior.sigma_m, kMaxWindow_m), std::min(3 * prior.sigma_rad, kMaxWindow_rad)};
   if (window.half_m < kSureMotion_m && window.half_rad < kSureTurn_rad) {
     PlanarRegistration aligned = RegisterPlanar(scan, lines, prior.mean, prior, registration);
@@ -158,7 +161,8 @@ PlanarRegistration PlanarOdometry::Impl::Align(const PlanarScan& scan, const Pla
   const std::vector<Eigen::Vector2d> points = SearchPoints(scan);
   SearchResult found = grid->Search(points, prior, window);
   for (int i = 0; i < kMaxWidenings && found.share < kMinShare; ++i) {
-    window = {std::min(std::max(kWidening * window.half_m, 0.3), kMaxWindow_m), std::min(std::max(kWidening * window.half_rad, 0.2), kMaxWindow_rad)};
+    window = {std::min(std::max(kWidening * window.half_m, 0.3), kMaxWindow_m),
+              std::min(std::max(kWidening * window.half_rad, 0.2), kMaxWindow_rad)};
     found = grid->Search(points, prior, window);
   }
   return RegisterPlanar(scan, lines, found.pose, prior, registration);
@@ -236,7 +240,8 @@ Pose2 PlanarOdometry::Impl::Track(const PreparedScan& prepared, const std::optio
   return during;
 }
 
-PlanarOdometry::PlanarOdometry(const OdometryOptions& options, const Eigen::Vector3d& normal) : impl_(std::make_unique<Impl>(options, normal)) {}
+PlanarOdometry::PlanarOdometry(const OdometryOptions& options, const Eigen::Vector3d& normal)
+    : impl_(std::make_unique<Impl>(options, normal)) {}
 PlanarOdometry::~PlanarOdometry() = default;
 
 OdometryResult PlanarOdometry::Register(const PreparedScan& prepared, const std::optional<GivenMotion>& given) {
@@ -257,7 +262,8 @@ OdometryResult PlanarOdometry::Register(const PreparedScan& prepared, const std:
   }
   s.stamp_s = stamp_s;
   s.last_given = given;
-  const Eigen::Isometry3d T_start = LeveledPose{s.pose, s.leveling, 0}.Lifted(), T_end = LeveledPose{s.pose * during, s.leveling, 0}.Lifted();
+  const Eigen::Isometry3d T_start = LeveledPose{s.pose, s.leveling, 0}.Lifted(),
+                          T_end = LeveledPose{s.pose * during, s.leveling, 0}.Lifted();
   result.T_odom_lidar = T_start;
   result.deskewed = Deskew(prepared, {T_start, T_end});
   return result;

@@ -1,8 +1,8 @@
 // Odometry of a planar laser: each scan is registered to the last few metres' scans.
 //
 // Prior (given odometry or constant velocity), correlative search in a window that follows from it (correlative_search.h), point-to-line
-// registration (planar_registration.h). The map reaches back some metres only: a robot that comes back finds its old map off by its drift, and
-// closing that loop is the mapper's affair (mapping/loop_closure.h), so that odometry's frame never jumps.
+// registration (planar_registration.h). The map reaches back some metres only: a robot that comes back finds its old map off by its drift,
+// and closing that loop is the mapper's affair (mapping/loop_closure.h), so that odometry's frame never jumps.
 #pragma once
 
 #include <memory>

@@ -1,9 +1,11 @@
-// Registration of a planar scan to lines: Gauss-Newton on (x, y, yaw) and on what the motion during the sweep differs from the one taken out of it.
+// Registration of a planar scan to lines: Gauss-Newton on (x, y, yaw) and on what the motion during the sweep differs from the one taken
+// out of it.
 //
-// Residual of a point p seen at fraction s of the sweep: r = n . (R(yaw) p' + t - m), p' = p + s (u + w z x p), (n, m) the line's normal and mean:
+// Residual of a point p seen at fraction s of the sweep: r = n . (R(yaw) p' + t - m), p' = p + s (u + w z x p), (n, m) the line's normal
+// and mean:
 //   dr/dt = n, dr/dyaw = n . (z x R p'), dr/du = s R^T n, dr/dw = s n . R (z x p).
-// Kernel: Geman-McClure, its scale halving down to three sigma. Directions that the lines do not hold stay where they start: where the search,
-// which knows corners and clutter too, or else the prior has put them.
+// Kernel: Geman-McClure, its scale halving down to three sigma. Directions that the lines do not hold stay where they start: where the
+// search, which knows corners and clutter too, or else the prior has put them.
 #pragma once
 
 #include <Eigen/Core>
@@ -39,8 +41,8 @@ struct PointToLine {
   double residual_m = 0;
   Vector6d jacobian = Vector6d::Zero();  // by (x, y, yaw) of the pose and (u, w) of the correction
 };
-[[nodiscard]] PointToLine EvaluatePointToLine(const Pose2& pose, const Pose2& correction, const PlanarPoint& point, const Eigen::Vector2d& normal,
-                                              const Eigen::Vector2d& mean);
+[[nodiscard]] PointToLine EvaluatePointToLine(const Pose2& pose, const Pose2& correction, const PlanarPoint& point,
+                                              const Eigen::Vector2d& normal, const Eigen::Vector2d& mean);
 
 // Starts at `start`, the search's result or the prior's mean; the prior counts for the covariance only. O(iterations * points).
 [[nodiscard]] PlanarRegistration RegisterPlanar(const PlanarScan& scan, const LineMap& map, const Pose2& start, const PlanarPrior& prior,

@@ -11,8 +11,8 @@
 
 namespace plumb::runtime {
 
-// Normal of the plane through the sensor in which all beams lie, within 2 degrees, on the side of the sensor's own z axis; none if the scan has
-// more than one ring, is not flat, or spans less than 20 degrees. O(points); for scans with many rings far less.
+// Normal of the plane through the sensor in which all beams lie, within 2 degrees, on the side of the sensor's own z axis; none if the scan
+// has more than one ring, is not flat, or spans less than 20 degrees. O(points); for scans with many rings far less.
 [[nodiscard]] std::optional<Eigen::Vector3d> ScanPlaneNormal(const Scan& scan);
 
 // The scan plane is taken as level: nothing in a planar scan says which way is down. Splits a lidar's pose accordingly.
@@ -28,10 +28,12 @@ struct PlanarPoint {
 // Thinned points in the levelled frame at the scan's stamp, by azimuth; the sensor is at the origin.
 using PlanarScan = std::vector<PlanarPoint>;
 
-// `motion`: the levelled frame's poses at the sweep's start and end, in any frame. `sigma_m`: of a point about a line. O(points log points).
+// `motion`: the levelled frame's poses at the sweep's start and end, in any frame. `sigma_m`: of a point about a line. O(points log
+// points).
 struct PlanarSweep {
   Pose2 start, end;
 };
-[[nodiscard]] PlanarScan MakePlanarScan(const PreparedScan& prepared, const Eigen::Matrix3d& leveling, const PlanarSweep& motion, double sigma_m);
+[[nodiscard]] PlanarScan MakePlanarScan(const PreparedScan& prepared, const Eigen::Matrix3d& leveling, const PlanarSweep& motion,
+                                        double sigma_m);
 
 }  // namespace plumb::runtime

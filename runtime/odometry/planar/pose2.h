@@ -28,7 +28,8 @@ struct Pose2 {
 [[nodiscard]] inline Eigen::Vector2d Perpendicular(const Eigen::Vector2d& v) { return {-v.y(), v.x()}; }
 
 // Covariance of (x, y, yaw) of T_a_c = T_a_b T_b_c, each covariance in its own motion's first frame, their errors independent.
-[[nodiscard]] inline Eigen::Matrix3d ComposedCovariance(const Pose2& T_a_b, const Eigen::Matrix3d& a_b, const Pose2& T_b_c, const Eigen::Matrix3d& b_c) {
+[[nodiscard]] inline Eigen::Matrix3d ComposedCovariance(const Pose2& T_a_b, const Eigen::Matrix3d& a_b, const Pose2& T_b_c,
+                                                        const Eigen::Matrix3d& b_c) {
   Eigen::Matrix3d first = Eigen::Matrix3d::Identity(), second = Eigen::Matrix3d::Identity();
   first.topRightCorner<2, 1>() = Perpendicular(T_a_b.Rotation() * T_b_c.t_m);
   second.topLeftCorner<2, 2>() = T_a_b.Rotation();

@@ -154,7 +154,8 @@ TEST(MatchSurfaces, KnownDeviationKeepsAPatchThatIsFarFromThePlan) {
 TEST(MatchSurfaces, WallBehindACupboardIsTheWall) {
   const AGraph house = test::MakeHouse();
   Scene scene;
-  const uint32_t wall_a = scene.Add({9, 0.3}, {9, 1.5}), front = scene.Add({8.5, 1.5}, {8.5, 4}, 0.2, 1.8), wall_b = scene.Add({9, 4}, {9, 5.7});
+  const uint32_t wall_a = scene.Add({9, 0.3}, {9, 1.5}), front = scene.Add({8.5, 1.5}, {8.5, 4}, 0.2, 1.8),
+                 wall_b = scene.Add({9, 4}, {9, 5.7});
   EXPECT_EQ(scene.Of(house, wall_a), SurfaceId(9));
   EXPECT_EQ(scene.Of(house, wall_b), SurfaceId(9));
   EXPECT_FALSE(scene.Of(house, front).valid());
@@ -332,7 +333,8 @@ TEST(MatchSurfaces, AWallThatRoomsDivideIntoManyFacesIsOneWhenItIsOff) {
 
 TEST(MatchSurfaces, APatchAlongTwoWallsIsOfBoth) {
   AGraph house = test::MakeHouse();
-  house.walls.push_back(house.walls[house.surfaces[8].wall.index()]);  // room C's part of the south wall is a wall of its own, planned 0.2 m further in
+  house.walls.push_back(
+      house.walls[house.surfaces[8].wall.index()]);  // room C's part of the south wall is a wall of its own, planned 0.2 m further in
   house.surfaces[8].wall = WallId(house.walls.size() - 1);
   house.surfaces[8].start.y() = house.surfaces[8].end.y() = 0.2;
   house.surfaces[8].d_m = -0.2;

@@ -49,7 +49,8 @@ TEST(SightLines, TellWhatEndsOnAWallFromWhatGoesBeyond) {
 
 TEST(SightLines, AreTheSameInAGeoreferencedPlan) {
   for (const double yaw_rad : {0.0, 0.4, 1.1, 2.9}) {
-    const SightLines::Count here = SceneAt({0, 0, 0}, yaw_rad, 300, 80).Count(), there = SceneAt({458000, 5429000, 310}, yaw_rad, 300, 80).Count();
+    const SightLines::Count here = SceneAt({0, 0, 0}, yaw_rad, 300, 80).Count(),
+                            there = SceneAt({458000, 5429000, 310}, yaw_rad, 300, 80).Count();
     EXPECT_NEAR(static_cast<double>(there.ended), static_cast<double>(here.ended), 2) << yaw_rad;
     EXPECT_EQ(there.passed, here.passed) << yaw_rad;
   }

@@ -43,10 +43,12 @@ TEST(BuiltPlane, ContainsTheFacesMovedPoints) {
     BuiltPlane(MakeFace(frame, s), wall, &built.n, &built.d);
     EXPECT_NEAR(built.n.norm(), 1, 1e-12);
     const Eigen::Vector3d axis = frame.normal.cross(Eigen::Vector3d::UnitZ());
-    const Eigen::Matrix3d turn = (Eigen::AngleAxisd(wall[kWallYaw], Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(wall[kWallTilt], axis)).toRotationMatrix();
+    const Eigen::Matrix3d turn =
+        (Eigen::AngleAxisd(wall[kWallYaw], Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(wall[kWallTilt], axis)).toRotationMatrix();
     for (const Eigen::Vector2d& end : {s.start, s.end}) {
       for (double z : {s.z_min_m, s.z_max_m}) {
-        const Eigen::Vector3d moved = frame.pivot + turn * (Eigen::Vector3d(end.x(), end.y(), z) - frame.pivot) + wall[kWallOffset] * frame.normal;
+        const Eigen::Vector3d moved =
+            frame.pivot + turn * (Eigen::Vector3d(end.x(), end.y(), z) - frame.pivot) + wall[kWallOffset] * frame.normal;
         EXPECT_NEAR(built.SignedDistance(moved), -0.5 * wall[kWallThickness], 1e-9);  // the face itself lies half the error further out
       }
     }

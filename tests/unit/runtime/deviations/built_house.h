@@ -65,8 +65,21 @@ inline Survey DriveThrough(const AGraph& plan, const AGraph& as_built) {
   SyntheticLidarOptions options;
   options.azimuths = 720;
   const SyntheticLidar lidar(as_built, options);
-  const Drive drive({{1.0, 1.0}, {4.2, 1.0}, {4.2, 2.75}, {6.2, 2.75}, {6.2, 1.2}, {8.0, 1.2}, {8.0, 5.2}, {6.0, 5.2}, {8.0, 5.2}, {8.0, 2.75}, {2.45, 2.75},
-                     {2.45, 4.75}, {4.0, 4.75}, {1.0, 4.75}}, kHeight_m);
+  const Drive drive({{1.0, 1.0},
+                     {4.2, 1.0},
+                     {4.2, 2.75},
+                     {6.2, 2.75},
+                     {6.2, 1.2},
+                     {8.0, 1.2},
+                     {8.0, 5.2},
+                     {6.0, 5.2},
+                     {8.0, 5.2},
+                     {8.0, 2.75},
+                     {2.45, 2.75},
+                     {2.45, 4.75},
+                     {4.0, 4.75},
+                     {1.0, 4.75}},
+                    kHeight_m);
   const Eigen::Isometry3d T_plan_map = drive.At(0);
   runtime::Mapper mapper;
   for (double t = 0; t < drive.duration_s(); t += kPeriod_s) {

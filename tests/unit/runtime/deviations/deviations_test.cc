@@ -41,7 +41,8 @@ TEST(AssessDeviations, NoFalsePositivesOverSeeds) {
   for (uint64_t seed = 1; seed <= 20; ++seed) {
     const DeviationReport report = Assess(house, Drive(seed));
     ASSERT_EQ(report.surfaces.size(), house.surfaces.size());
-    for (const SurfaceDeviation& d : report.surfaces) EXPECT_EQ(d.status, SurfaceStatus::kAsPlanned) << "seed " << seed << " surface " << d.surface.value;
+    for (const SurfaceDeviation& d : report.surfaces)
+      EXPECT_EQ(d.status, SurfaceStatus::kAsPlanned) << "seed " << seed << " surface " << d.surface.value;
     for (const RoomDeviation& d : report.rooms) EXPECT_EQ(d.status, SurfaceStatus::kAsPlanned);
   }
 }
@@ -60,7 +61,8 @@ TEST(AssessDeviations, FindsTwoDeviatedWallsOfSixAndNoOther) {
       const size_t wall = house.surfaces[d.surface.index()].wall.index();
       const bool deviates = wall == first || wall == second;
       EXPECT_EQ(d.status, deviates ? SurfaceStatus::kDeviated : SurfaceStatus::kAsPlanned)
-          << "seed " << seed << " wall " << wall << ": " << options.deviations[wall].offset_m << " m, found " << d.translation_m << " p " << d.p_deviated;
+          << "seed " << seed << " wall " << wall << ": " << options.deviations[wall].offset_m << " m, found " << d.translation_m << " p "
+          << d.p_deviated;
       EXPECT_NEAR(d.rotation_rad, options.deviations[wall].yaw_rad, 0.3 * kDeg);
     }
   }
@@ -153,9 +155,12 @@ TEST(DeviationsToJson, HasTheAgreedForm) {
   EXPECT_EQ(east["status"], "deviated");
   EXPECT_NEAR(east["rotation_deg"], 3, 0.3);
   EXPECT_NEAR(std::abs(east["translation_m"].get<double>()), 0.2, 0.01);
-  for (const char* key : {"normal", "sigma_translation_m", "sigma_rotation_deg", "tilt_deg", "p_deviated", "mdb_m", "observed_m2", "points"}) EXPECT_TRUE(east.contains(key));
+  for (const char* key :
+       {"normal", "sigma_translation_m", "sigma_rotation_deg", "tilt_deg", "p_deviated", "mdb_m", "observed_m2", "points"})
+    EXPECT_TRUE(east.contains(key));
   ASSERT_EQ(json["rooms"].size(), 3u);
-  for (const char* key : {"id", "name", "guid", "translation_m", "rotation_deg", "sigma_m", "status"}) EXPECT_TRUE(json["rooms"][2].contains(key));
+  for (const char* key : {"id", "name", "guid", "translation_m", "rotation_deg", "sigma_m", "status"})
+    EXPECT_TRUE(json["rooms"][2].contains(key));
   EXPECT_TRUE(json["unplanned"].empty());
   EXPECT_EQ(DeviationsToJson(house, Assess(house, options)), text);
 }

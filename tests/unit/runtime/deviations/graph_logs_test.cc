@@ -114,7 +114,8 @@ LoggedCase MakeCase(const std::vector<LoggedRoom>& plan_rooms, const std::vector
 std::optional<LoggedCase> CaseOf(int number) {
   const std::string plan_folder = kData + "A-Graphs/T" + std::to_string(number) + "/";
   if (!std::filesystem::exists(plan_folder)) return std::nullopt;
-  return MakeCase(test::ReadLoggedRooms(plan_folder), test::ReadLoggedRooms(kData + "S-Graphs/R2/"), test::ReadLoggedTruth(plan_folder + "ground_truth.json"));
+  return MakeCase(test::ReadLoggedRooms(plan_folder), test::ReadLoggedRooms(kData + "S-Graphs/R2/"),
+                  test::ReadLoggedTruth(plan_folder + "ground_truth.json"));
 }
 
 // As if nobody knew which faces are of one wall.
@@ -143,12 +144,14 @@ TEST_P(GraphLogs, AllDeviatedWallsAndNoOthers) {
   const DeviationReport report = AssessDeviations(c.plan, result);
   size_t k = 0;
   for (const auto& [plan_id, map_id] : truth.rooms) {
-    const LoggedRoom& room = *std::find_if(map_rooms.begin(), map_rooms.end(), [&, id = map_id](const LoggedRoom& r) { return r.id == id; });
+    const LoggedRoom& room =
+        *std::find_if(map_rooms.begin(), map_rooms.end(), [&, id = map_id](const LoggedRoom& r) { return r.id == id; });
     for (size_t i = 0; i < 4; ++i, ++k) {
       const auto is_deviated = [&](const auto& pair) { return pair[1] == room.plane_ids[i]; };
       const auto deviated = std::find_if(truth.deviated_planes.begin(), truth.deviated_planes.end(), is_deviated);
       const SurfaceDeviation& d = report.surfaces[k];
-      SCOPED_TRACE(testing::Message() << "map plane " << room.plane_ids[i] << ": " << d.translation_m << " +- " << d.sigma_translation_m << " p " << d.p_deviated);
+      SCOPED_TRACE(testing::Message() << "map plane " << room.plane_ids[i] << ": " << d.translation_m << " +- " << d.sigma_translation_m
+                                      << " p " << d.p_deviated);
       EXPECT_EQ(d.status, deviated == truth.deviated_planes.end() ? SurfaceStatus::kAsPlanned : SurfaceStatus::kDeviated);
       if (deviated == truth.deviated_planes.end()) continue;
       const int plan_plane = (*deviated)[0];

@@ -40,8 +40,9 @@ TEST(ShapesAsPlanned, DoesNotHoldForAWallThatWasMovedOrTurned) {
   const size_t middle = test::WallOf(house, "wall-middle");
   for (const auto& [offset_m, turn_deg] : {std::pair{0.04, 0.0}, std::pair{0.0, 2.0}, std::pair{-0.2, 1.0}}) {
     AGraph built = house;
-    test::Displace(built, "wall-middle", Eigen::Translation2d(Eigen::Vector2d(5, 2.75) + Eigen::Vector2d(offset_m, 0)) *
-                                             Eigen::Rotation2Dd(turn_deg * std::numbers::pi / 180) * Eigen::Translation2d(Eigen::Vector2d(-5, -2.75)));
+    test::Displace(built, "wall-middle",
+                   Eigen::Translation2d(Eigen::Vector2d(5, 2.75) + Eigen::Vector2d(offset_m, 0)) *
+                       Eigen::Rotation2Dd(turn_deg * std::numbers::pi / 180) * Eigen::Translation2d(Eigen::Vector2d(-5, -2.75)));
     EXPECT_FALSE(Shapes(house, built)[middle]) << offset_m << " m, " << turn_deg << " deg";
   }
 }

@@ -34,8 +34,9 @@ AGraph PlannedInC() {
 AGraph PartitionInC(double offset_m, double turn_deg) {
   AGraph built = PlannedInC();
   const Eigen::Vector2d middle(6.13, 3.36);
-  test::Displace(built, "wall-in-C", Eigen::Translation2d(middle + Eigen::Vector2d(0, offset_m)) * Eigen::Rotation2Dd(turn_deg * std::numbers::pi / 180) *
-                                         Eigen::Translation2d(-middle));
+  test::Displace(built, "wall-in-C",
+                 Eigen::Translation2d(middle + Eigen::Vector2d(0, offset_m)) * Eigen::Rotation2Dd(turn_deg * std::numbers::pi / 180) *
+                     Eigen::Translation2d(-middle));
   return built;
 }
 

@@ -213,7 +213,8 @@ TEST(Localizer, PolishesAMapThatLiesInNoPlan) {
     EXPECT_LT((k.T_odom_kf.inverse() * k.T_map_kf).translation().norm(), 0.05);
     EXPECT_LT(ErrorOf(T_plan_map * k.T_map_kf, run.TruthAt(k.stamp_s)).position_m, 0.03);
   }
-  EXPECT_TRUE(std::any_of(keyframes.begin() + 1, keyframes.end(), [](const Keyframe& k) { return !k.T_map_kf.isApprox(k.T_odom_kf, 1e-9); }));
+  EXPECT_TRUE(
+      std::any_of(keyframes.begin() + 1, keyframes.end(), [](const Keyframe& k) { return !k.T_map_kf.isApprox(k.T_odom_kf, 1e-9); }));
 }
 
 TEST(Localizer, GivesTheSamePosesForTheSameScans) {
@@ -251,11 +252,14 @@ TEST(Localizer, GoesOnThroughSensorTrouble) {
     const ScanVerdict v = run.localizer.AddScan(scan, std::nullopt);
     EXPECT_EQ(v.in_order, i % 12 != 7 && i % 12 != 9);
     ASSERT_EQ(v.verdict, Verdict::kLocalized) << "at " << v.stamp_s;
-    if (v.in_order && !scan.points.empty()) { EXPECT_LT(ErrorOf(*v.T_plan_lidar, run.TruthAt(v.stamp_s)).position_m, 0.1) << "at " << v.stamp_s; }
+    if (v.in_order && !scan.points.empty()) {
+      EXPECT_LT(ErrorOf(*v.T_plan_lidar, run.TruthAt(v.stamp_s)).position_m, 0.1) << "at " << v.stamp_s;
+    }
   }
   run.localizer.Finish();
   const Trajectory smoothed = run.localizer.SmoothedTrajectory();
-  EXPECT_TRUE(std::is_sorted(smoothed.begin(), smoothed.end(), [](const StampedPose& a, const StampedPose& b) { return a.stamp_s <= b.stamp_s; }));
+  EXPECT_TRUE(
+      std::is_sorted(smoothed.begin(), smoothed.end(), [](const StampedPose& a, const StampedPose& b) { return a.stamp_s <= b.stamp_s; }));
 }
 
 TEST(Localizer, LeavesOutScansWithoutAStamp) {
@@ -283,7 +287,8 @@ TEST(Localizer, TakesScansOfThreeHundredThousandPoints) {
     v = localizer.AddScan(scan, std::nullopt);
   }
   EXPECT_EQ(v.verdict, Verdict::kLocalized);
-  for (const Keyframe& keyframe : localizer.map().keyframes) EXPECT_LE(keyframe.points.size(), static_cast<size_t>(MapperOptions{}.max_keyframe_points));
+  for (const Keyframe& keyframe : localizer.map().keyframes)
+    EXPECT_LE(keyframe.points.size(), static_cast<size_t>(MapperOptions{}.max_keyframe_points));
 }
 
 TEST(LocalizerOptions, CheckNamesFieldValueAndRule) {

@@ -22,7 +22,8 @@ std::vector<Scan> HouseScans(const AGraph& house, size_t count) {
   const test::SyntheticLidar lidar(house, sparse);
   const test::Drive drive = test::HouseDrive();
   std::vector<Scan> scans;
-  for (size_t i = 0; i < count; ++i) scans.push_back(lidar.Sweep([&](double t_s) { return drive.At(t_s); }, static_cast<double>(i) * kPeriod_s));
+  for (size_t i = 0; i < count; ++i)
+    scans.push_back(lidar.Sweep([&](double t_s) { return drive.At(t_s); }, static_cast<double>(i) * kPeriod_s));
   return scans;
 }
 
@@ -88,7 +89,8 @@ TEST(OnlineLocalizer, AnswersARequestWithoutChangingTheResult) {
   EXPECT_EQ(requested[0].verdict, Verdict::kSearching);
   EXPECT_EQ(requested[1].verdict, Verdict::kLocalized);
   const auto judged = [](const EstimateUpdate& update) {
-    return std::any_of(update.deviations.surfaces.begin(), update.deviations.surfaces.end(), [](const SurfaceDeviation& s) { return s.status != SurfaceStatus::kUnobserved; });
+    return std::any_of(update.deviations.surfaces.begin(), update.deviations.surfaces.end(),
+                       [](const SurfaceDeviation& s) { return s.status != SurfaceStatus::kUnobserved; });
   };
   EXPECT_FALSE(judged(requested[0]));
   EXPECT_TRUE(judged(requested[1]));
@@ -109,7 +111,8 @@ TEST(UpdateToJson, TellsOfEachSurfaceOnceUntilItChanges) {
   std::vector<SurfaceDeviation> told;
   const std::string first = UpdateToJson(update, told);
   EXPECT_EQ(first,
-            "{\"t\":12.5,\"verdict\":\"localized\",\"T_plan_map\":[1.0,2.0,0.5,0.0],\"surfaces\":[{\"id\":1,\"status\":\"deviated\",\"translation_m\":0.2,"
+            "{\"t\":12.5,\"verdict\":\"localized\",\"T_plan_map\":[1.0,2.0,0.5,0.0],\"surfaces\":[{\"id\":1,\"status\":\"deviated\","
+            "\"translation_m\":0.2,"
             "\"sigma_translation_m\":0.0,\"rotation_deg\":0.0,\"sigma_rotation_deg\":0.0,\"p_deviated\":0.0}]}\n");
   EXPECT_NE(UpdateToJson(update, told).find("\"surfaces\":[]"), std::string::npos);
   EstimateUpdate lost = update;

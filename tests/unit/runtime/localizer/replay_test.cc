@@ -62,7 +62,8 @@ std::string Outcome(const Recording& recording, const AGraph& plan, int threads)
     return true;
   });
   localizer.Finish();
-  return out + WriteTum(online) + WriteTum(localizer.SmoothedTrajectory()) + SGraphToJson(localizer.map(), DeriveUpperLayers(localizer.map()), localizer.T_plan_map()) +
+  return out + WriteTum(online) + WriteTum(localizer.SmoothedTrajectory()) +
+         SGraphToJson(localizer.map(), DeriveUpperLayers(localizer.map()), localizer.T_plan_map()) +
          DeviationsToJson(plan, localizer.Deviations());
 }
 

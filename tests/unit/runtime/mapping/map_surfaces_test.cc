@@ -7,8 +7,10 @@
 namespace plumb::runtime {
 namespace {
 
-// Of a wall, 2 m high, at y = y_m + lean * (x - x_min_m), seen from the side of smaller y, what `seen` takes of its cells, with so many points in each.
-TrackedSurface Patch(double x_min_m, double x_max_m, double y_m, double lean, int cell_points, const std::function<bool(double x_m, double z_m)>& seen) {
+// Of a wall, 2 m high, at y = y_m + lean * (x - x_min_m), seen from the side of smaller y, what `seen` takes of its cells, with so many
+// points in each.
+TrackedSurface Patch(double x_min_m, double x_max_m, double y_m, double lean, int cell_points,
+                     const std::function<bool(double x_m, double z_m)>& seen) {
   Segment segment;
   const Eigen::Vector3d normal = Eigen::Vector3d(lean, -1, 0).normalized();
   segment.plane = {normal, -normal.dot(Eigen::Vector3d(x_min_m, y_m, 0))};

@@ -46,8 +46,8 @@ const Mapped& House() {
   return kMapped;
 }
 
-// Map surfaces of kind wall that lie on a plan surface: same facing, within 0.15 m, along more than half of it. One map surface may lie on two
-// plan surfaces, where a wall passes two rooms.
+// Map surfaces of kind wall that lie on a plan surface: same facing, within 0.15 m, along more than half of it. One map surface may lie on
+// two plan surfaces, where a wall passes two rooms.
 std::vector<const MapSurface*> OnPlan(const Mapped& mapped, const Surface& planned) {
   std::vector<const MapSurface*> on;
   const Eigen::Vector2d along = (planned.end - planned.start).normalized();
@@ -58,7 +58,8 @@ std::vector<const MapSurface*> OnPlan(const Mapped& mapped, const Surface& plann
     if (plane.n.dot(planned.normal) < 0.97 || std::abs(plane.SignedDistance(midpoint)) > 0.15) continue;
     const Eigen::Vector3d start = mapped.T_plan_map * Eigen::Vector3d(s.start.x(), s.start.y(), s.z_min_m);
     const Eigen::Vector3d end = mapped.T_plan_map * Eigen::Vector3d(s.end.x(), s.end.y(), s.z_min_m);
-    const double from = std::max(0.0, along.dot(start.head<2>() - planned.start)), to = std::min(planned.length_m(), along.dot(end.head<2>() - planned.start));
+    const double from = std::max(0.0, along.dot(start.head<2>() - planned.start)),
+                 to = std::min(planned.length_m(), along.dot(end.head<2>() - planned.start));
     if (to - from > 0.5 * planned.length_m()) on.push_back(&s);
   }
   return on;
@@ -174,7 +175,8 @@ TEST(Mapper, StatisticsReproduceThePlane) {
     EXPECT_NEAR(sum.count(), s.num_points, 0.5);
     EXPECT_NEAR(s.plane.SignedDistance(sum.centroid()), 0, 1e-6);
     EXPECT_NEAR(s.plane.n.norm(), 1, 1e-9);
-    EXPECT_TRUE(std::is_sorted(s.observations.begin(), s.observations.end(), [](const auto& a, const auto& b) { return a.keyframe < b.keyframe; }));
+    EXPECT_TRUE(
+        std::is_sorted(s.observations.begin(), s.observations.end(), [](const auto& a, const auto& b) { return a.keyframe < b.keyframe; }));
   }
 }
 

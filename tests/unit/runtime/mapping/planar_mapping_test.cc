@@ -133,7 +133,8 @@ TEST(PlanarMapper, WallsComeOutOnceWithTheHeightThatWasSeen) {
 TEST(PlanarMapper, IsTheSameEveryTime) {
   const Mapped a = MapLoop(0.0025), b = MapLoop(0.0025);
   ASSERT_EQ(a.graph.keyframes.size(), b.graph.keyframes.size());
-  for (size_t i = 0; i < a.graph.keyframes.size(); ++i) EXPECT_EQ(a.graph.keyframes[i].T_map_kf.matrix(), b.graph.keyframes[i].T_map_kf.matrix());
+  for (size_t i = 0; i < a.graph.keyframes.size(); ++i)
+    EXPECT_EQ(a.graph.keyframes[i].T_map_kf.matrix(), b.graph.keyframes[i].T_map_kf.matrix());
   ASSERT_EQ(a.graph.surfaces.size(), b.graph.surfaces.size());
 }
 

@@ -32,7 +32,9 @@ struct Scene {
     match.hypotheses[1].T_plan_map = test::UprightPose(180, 2 * middle_m.x(), 2 * middle_m.y(), 0);
   }
 
-  [[nodiscard]] std::optional<Guidance> Guided(const AGraph& plan) const { return Guide(PlanIndex(plan), map, match, T_map_lidar, MatcherOptions()); }
+  [[nodiscard]] std::optional<Guidance> Guided(const AGraph& plan) const {
+    return Guide(PlanIndex(plan), map, match, T_map_lidar, MatcherOptions());
+  }
 };
 
 TEST(Guidance, SendsTheRobotIntoTheRoomThatDiffers) {

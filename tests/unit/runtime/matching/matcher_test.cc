@@ -224,7 +224,8 @@ TEST(Matcher, IsAmbiguousBetweenTwoStoreysThatAreAlike) {
 TEST(Matcher, NeverIsUniqueBetweenTwoParallelWalls) {
   const AGraph corridor = test::MakeGridPlan({0, 40}, {0, 2}, {});
   for (uint64_t seed = 1; seed <= 4; ++seed) {
-    test::SyntheticMapOptions options = OnTour({{17, 1}, {20, 1.2}, {23, 0.9}}, UprightPose(30.0 * static_cast<double>(seed), 0, 0, 0), seed);
+    test::SyntheticMapOptions options =
+        OnTour({{17, 1}, {20, 1.2}, {23, 0.9}}, UprightPose(30.0 * static_cast<double>(seed), 0, 0, 0), seed);
     options.max_range_m = 8;
     const MatchResult result = Matcher(corridor).Match(MakeSyntheticMap(corridor, options));
     EXPECT_EQ(result.verdict, Verdict::kSearching);

@@ -127,8 +127,11 @@ TEST(RaysVouch, OnlyFarAheadOfTheRivalAndTheMirrorImage) {
   EXPECT_TRUE(RaysVouch({Good(100), Good(20, 5)}, 0, false, options));
   EXPECT_FALSE(RaysVouch({Good(100), Good(80, 5)}, 0, false, options)) << "a rival is near";
   EXPECT_FALSE(RaysVouch({Good(100), Good(20, 5)}, 80, false, options)) << "the mirror image is near";
-  EXPECT_FALSE(RaysVouch({Good(200), Good(200 - options.vouch_sure_nats + 1, 5)}, 0, false, options)) << "a small part of what both explain";
-  EXPECT_TRUE(RaysVouch({Good(200), Good(200 - options.vouch_sure_nats - 1, 5)}, 0, false, options)) << "sure, whatever both explain";
+  EXPECT_FALSE(RaysVouch({Good(300), Good(300 - 0.9 * options.vouch_lead_ratio * 300, 5)}, 0, false, options))
+      << "a small part of what both explain";
+  Candidate nearly_all = Good(300);
+  nearly_all.rays.explained_ratio = options.vouch_nearly_all_ratio;
+  EXPECT_TRUE(RaysVouch({nearly_all, Good(300 - options.vouch_lead_nats, 5)}, 0, false, options));
   Candidate blind = Good(100);
   blind.rays.explained_ratio = 0.5;
   EXPECT_FALSE(RaysVouch({blind}, 0, false, options)) << "too few rays end where they should";
@@ -157,14 +160,53 @@ TEST(Doubt, RaysThroughWallsAreForgivenWhereMorePlanesAgreeThanAreAskedFor) {
   const MatcherOptions options;
   Candidate c = Good(100);
   c.rays.through_ratio = 0.5 * (options.accept_max_through_ratio + options.vouch_max_through_ratio);
-  const auto doubt = [&] { return Doubt(c, Hypothesis(), c.fit.consistent_planes - options.ample_more_planes, false, std::nullopt, options); };
+  const auto doubt = [&] { return Doubt(c, Hypothesis(), c.fit.consistent_planes - options.ample_more_planes, {}, std::nullopt, options); };
   EXPECT_EQ(doubt(), "");
-  EXPECT_NE(Doubt(c, Hypothesis(), c.fit.consistent_planes, false, std::nullopt, options), "") << "just as many as asked for";
+  EXPECT_NE(Doubt(c, Hypothesis(), c.fit.consistent_planes, {}, std::nullopt, options), "") << "just as many as asked for";
   c.fit.consistent_ratio = 0.5 * options.accept_min_consistent_ratio;
   EXPECT_NE(doubt(), "") << "most walls are elsewhere";
   c.fit.consistent_ratio = 0.9;
   c.rays.through_ratio = 1.1 * options.vouch_max_through_ratio;
   EXPECT_NE(doubt(), "");
+}
+
+TEST(StandsAlone, OnlyWhereAllOtherPlacesAreNoBetterThanOutside) {
+  const MatcherOptions options;
+  EXPECT_TRUE(StandsAlone({Good(options.vouch_lead_nats), Good(0, 5), Good(-80, 9)}, 0, options));
+  EXPECT_FALSE(StandsAlone({Good(options.vouch_lead_nats - 1), Good(-80, 5)}, 0, options)) << "hardly fits itself";
+  EXPECT_FALSE(StandsAlone({Good(300), Good(-80, 5), Good(1, 9)}, 0, options)) << "the rays fit elsewhere as well";
+  EXPECT_FALSE(StandsAlone({Good(300), Good(-80, 5)}, 1, options)) << "the rays fit the mirror image as well";
+  EXPECT_FALSE(StandsAlone({Good(300)}, 0, options)) << "nothing to compare with";
+}
+
+// Among boxes: half of the rays end on them, and most of what was seen upright are their sides.
+Candidate Cluttered(const MatcherOptions& options) {
+  Candidate c = Good(60);
+  c.fit.consistent_ratio = 0.5 * options.accept_min_consistent_ratio;
+  c.rays.explained_ratio = 0.5;
+  c.rays.in_front_ratio = 0.4;
+  return c;
+}
+
+TEST(Decide, AmongClutterAPlaceThatStandsAloneIsUnique) {
+  const Candidate cluttered = Cluttered(MatcherOptions());
+  const MatchResult alone = Decided({cluttered, Good(-20, 5)});
+  EXPECT_EQ(alone.verdict, Verdict::kUnique) << alone.reason;
+  const MatchResult rivalled = Decided({cluttered, Good(20, 5)});
+  EXPECT_EQ(rivalled.verdict, Verdict::kSearching);
+  EXPECT_NE(rivalled.reason.find("of the walls seen agree"), std::string::npos) << rivalled.reason;
+}
+
+TEST(Doubt, OfAPlaceThatStandsAloneOnlyTheShareOfWallsIsForgiven) {
+  const MatcherOptions options;
+  const RayVerdict alone{false, true};
+  const int planes = Good(0).fit.consistent_planes;
+  const auto doubt = [&](const Candidate& c, int required) { return Doubt(c, Hypothesis(), required, alone, std::nullopt, options); };
+  Candidate cluttered = Cluttered(options);
+  EXPECT_EQ(doubt(cluttered, planes), "");
+  EXPECT_NE(doubt(cluttered, planes + 1), "") << "planes are asked for as anywhere";
+  cluttered.rays.through_ratio = 1.1 * options.accept_max_through_ratio;
+  EXPECT_NE(doubt(cluttered, planes - options.ample_more_planes), "") << "few walls agree, and rays pass through others";
 }
 
 TEST(RequiredPlanes, GrowWithTheNumberOfRooms) {

@@ -91,7 +91,8 @@ TEST(JudgeRays, ChargesAPlanarLaserNothingForWhatFurnitureStops) {
   const RayEvidence spared = JudgeRays(plan, view, At(view, 0, 0), options);
   ASSERT_GT(spared.in_front_ratio, 0.05);
   EXPECT_EQ(spared.in_front_ratio, charged.in_front_ratio);
-  EXPECT_NEAR(spared.log_likelihood - charged.log_likelihood, 0.5 * spared.in_front_ratio * spared.judged / options.rays_per_independent, 1e-6);
+  EXPECT_NEAR(spared.log_likelihood - charged.log_likelihood, 0.5 * spared.in_front_ratio * spared.judged / options.rays_per_independent,
+              1e-6);
 }
 
 TEST(JudgeRays, DoesNotMindWhetherADoorIsOpen) {

@@ -32,7 +32,9 @@ StartHint InRoom(size_t room) {
   return hint;
 }
 
-size_t RoomOf(const AGraph& plan, const Eigen::Vector2d& p) { return p.x() < 5 ? (plan.rooms[0].center.x() < 5 ? 0 : 1) : (plan.rooms[0].center.x() < 5 ? 1 : 0); }
+size_t RoomOf(const AGraph& plan, const Eigen::Vector2d& p) {
+  return p.x() < 5 ? (plan.rooms[0].center.x() < 5 ? 0 : 1) : (plan.rooms[0].center.x() < 5 ? 1 : 0);
+}
 
 TEST(LogPrior, IsZeroWithoutAHint) { EXPECT_EQ(LogPrior(Twin(), StartHint(), {2.5, 2, 0.6}), 0); }
 
@@ -80,7 +82,8 @@ TEST(Matcher, OverrulesAWrongHint) {
   const AGraph house = test::MakeHouse();
   const Eigen::Isometry3d truth = UprightPose(25, 1, 2, 0);
   const Eigen::Vector2d far_off(100, 100);
-  const MatchResult result = Matcher(house).Match(MakeSyntheticMap(house, OnTour(test::kWholeHouse, truth)), Near(far_off.x(), far_off.y(), 1));
+  const MatchResult result =
+      Matcher(house).Match(MakeSyntheticMap(house, OnTour(test::kWholeHouse, truth)), Near(far_off.x(), far_off.y(), 1));
   ASSERT_EQ(result.verdict, Verdict::kUnique) << result.reason;
   EXPECT_LT(ErrorOf(result.hypotheses[0].T_plan_map, truth, test::kWholeHouse.front()).xy_m, 0.05);
 }

@@ -12,7 +12,8 @@ const Eigen::Matrix3d kNoNoise = Eigen::Matrix3d::Zero();
 
 Eigen::Isometry3d Turned(double yaw_rad, double pitch_rad = 0) {
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  T.linear() = (Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(pitch_rad, Eigen::Vector3d::UnitY())).toRotationMatrix();
+  T.linear() =
+      (Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(pitch_rad, Eigen::Vector3d::UnitY())).toRotationMatrix();
   return T;
 }
 

@@ -174,7 +174,8 @@ TEST(Odometry, SameInputSamePoses) {
 }
 
 TEST(Odometry, LevelsATiltedStart) {
-  const Eigen::Matrix3d tilt = (Eigen::AngleAxisd(0.08, Eigen::Vector3d::UnitX()) * Eigen::AngleAxisd(-0.06, Eigen::Vector3d::UnitY())).toRotationMatrix();
+  const Eigen::Matrix3d tilt =
+      (Eigen::AngleAxisd(0.08, Eigen::Vector3d::UnitX()) * Eigen::AngleAxisd(-0.06, Eigen::Vector3d::UnitY())).toRotationMatrix();
   const test::SyntheticLidar lidar(test::MakeHouse());
   Odometry odometry;
   const OdometryResult r = odometry.Register(lidar.Sweep([&](double) {

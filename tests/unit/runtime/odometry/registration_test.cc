@@ -11,7 +11,9 @@ namespace plumb::runtime {
 namespace {
 
 double Uniform(std::mt19937_64& rng, double lo, double hi) { return lo + (hi - lo) * static_cast<double>(rng() >> 11) * 0x1p-53; }
-Eigen::Vector3d UniformVector(std::mt19937_64& rng, double size) { return {Uniform(rng, -size, size), Uniform(rng, -size, size), Uniform(rng, -size, size)}; }
+Eigen::Vector3d UniformVector(std::mt19937_64& rng, double size) {
+  return {Uniform(rng, -size, size), Uniform(rng, -size, size), Uniform(rng, -size, size)};
+}
 
 TEST(PointToPlane, JacobianIsThatOfTheResidual) {
   std::mt19937_64 rng(7);

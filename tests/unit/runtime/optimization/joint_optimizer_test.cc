@@ -66,8 +66,9 @@ void ExpectDeviationsNear(const Solved& s, const DriveOptions& options, double m
 
 TEST(OptimizeJointly, RecoversPlaceAndDeviationsOverTheirRange) {
   const AGraph house = test::MakeHouse();
-  for (const WallDeviation& d : {WallDeviation{0.05, 0}, WallDeviation{-0.05, 1 * kDeg}, WallDeviation{0.10, -3 * kDeg}, WallDeviation{-0.20, 5 * kDeg},
-                                 WallDeviation{0.40, 0}, WallDeviation{0.40, 10 * kDeg}, WallDeviation{-0.30, -10 * kDeg}, WallDeviation{0, 4 * kDeg}}) {
+  for (const WallDeviation& d :
+       {WallDeviation{0.05, 0}, WallDeviation{-0.05, 1 * kDeg}, WallDeviation{0.10, -3 * kDeg}, WallDeviation{-0.20, 5 * kDeg},
+        WallDeviation{0.40, 0}, WallDeviation{0.40, 10 * kDeg}, WallDeviation{-0.30, -10 * kDeg}, WallDeviation{0, 4 * kDeg}}) {
     SCOPED_TRACE(testing::Message() << d.offset_m << " m " << d.yaw_rad / kDeg << " deg");
     const DriveOptions options = WithDeviations(7, {{kEast, d}});
     const Solved s = Solve(house, options);
@@ -88,8 +89,8 @@ TEST(OptimizeJointly, FindsNoDeviationInAHouseAsPlanned) {
   }
 }
 
-// A narrow field of view in a small room sees neither floor nor ceiling, and walls are never quite plumb: the height stays where the matcher
-// had it.
+// A narrow field of view in a small room sees neither floor nor ceiling, and walls are never quite plumb: the height stays where the
+// matcher had it.
 TEST(OptimizeJointly, HoldsTheHeightWithoutFloorAndCeiling) {
   const AGraph house = test::MakeHouse();
   DriveOptions options;
@@ -119,7 +120,8 @@ TEST(OptimizeJointly, ManyLowCeilingsDoNotPushTheFloorDown) {
     }
   }
   const Solved s = SolveDrive(house, std::move(drive));
-  const auto ceilings = std::count_if(s.matches.begin(), s.matches.end(), [&](const Match& m) { return s.drive.map.surfaces[m.map_surface].kind == SurfaceKind::kCeiling; });
+  const auto ceilings = std::count_if(s.matches.begin(), s.matches.end(),
+                                      [&](const Match& m) { return s.drive.map.surfaces[m.map_surface].kind == SurfaceKind::kCeiling; });
   ASSERT_GE(ceilings, 9) << "or they could push nothing";
   EXPECT_NEAR((s.result.T_plan_map.translation() - s.drive.T_plan_map.translation()).z(), 0, 0.02);
 }
@@ -166,7 +168,8 @@ TEST(OptimizeJointly, BothFacesOfAWallShareOneDeviationAndGiveItsThickness) {
   EXPECT_NEAR(middle.deviation.offset_m, 0.12, 0.01);
   EXPECT_NEAR(middle.deviation.yaw_rad, 1 * kDeg, 0.3 * kDeg);
   // Not all of it: bias and tolerance of the others explain a part just as well.
-  for (const WallEstimate& w : s.result.walls) EXPECT_GE(middle.thickness_error_m, w.thickness_error_m + (w.wall == middle.wall ? 0 : 0.003));
+  for (const WallEstimate& w : s.result.walls)
+    EXPECT_GE(middle.thickness_error_m, w.thickness_error_m + (w.wall == middle.wall ? 0 : 0.003));
   EXPECT_GT(middle.thickness_error_m, 0.005);
   EXPECT_LT(middle.thickness_error_m, 0.022);
 }
@@ -198,7 +201,8 @@ TEST(OptimizeJointly, TwoSigmaCoversWallsWithinTolerance) {
   int inside = 0, total = 0;
   for (uint64_t seed = 1; seed <= 20; ++seed) {
     DriveOptions options = WithDeviations(seed, {});
-    for (WallDeviation& d : options.deviations) d = {random.Normal(CouplingOptions{}.offset_tau0_m), random.Normal(CouplingOptions{}.yaw_tau0_rad)};
+    for (WallDeviation& d : options.deviations)
+      d = {random.Normal(CouplingOptions{}.offset_tau0_m), random.Normal(CouplingOptions{}.yaw_tau0_rad)};
     const Solved s = Solve(house, options);
     for (const WallEstimate& w : s.result.walls) {
       inside += std::abs(w.deviation.offset_m - options.deviations[w.wall.index()].offset_m) < 2 * std::sqrt(w.cov(0, 0));
@@ -260,7 +264,8 @@ TEST(OptimizeJointly, CorridorLeavesItsDirectionOpen) {
   Drive drive = test::DriveThroughHouse(house, WithDeviations(1, {}));
   std::vector<Match> matches = MatchSurfaces(drive.map, house, drive.T_plan_map, {});
   std::erase_if(matches, [&](const Match& m) {
-    return m.plan_surface.valid() && house.surfaces[m.plan_surface.index()].wall != WallId(kWest) && house.surfaces[m.plan_surface.index()].wall != WallId(kMiddle);
+    return m.plan_surface.valid() && house.surfaces[m.plan_surface.index()].wall != WallId(kWest) &&
+           house.surfaces[m.plan_surface.index()].wall != WallId(kMiddle);
   });
   const JointResult result = OptimizeJointly(drive.map, house, matches, drive.T_plan_map);
   EXPECT_TRUE(result.converged);
@@ -292,7 +297,8 @@ TEST(OptimizeJointly, SameInputSameBytes) {
   const AGraph house = test::MakeHouse();
   const Drive drive = test::DriveThroughHouse(house, WithDeviations(8, {{kSouth, {0.1, 0.02}}}));
   const std::vector<Match> matches = MatchSurfaces(drive.map, house, drive.T_plan_map, {});
-  const JointResult a = OptimizeJointly(drive.map, house, matches, drive.T_plan_map), b = OptimizeJointly(drive.map, house, matches, drive.T_plan_map);
+  const JointResult a = OptimizeJointly(drive.map, house, matches, drive.T_plan_map),
+                    b = OptimizeJointly(drive.map, house, matches, drive.T_plan_map);
   EXPECT_EQ(a.T_plan_map.matrix(), b.T_plan_map.matrix());
   EXPECT_EQ(a.cov_xy_yaw, b.cov_xy_yaw);
   ASSERT_EQ(a.walls.size(), b.walls.size());

@@ -53,7 +53,8 @@ TEST(LevelVotes, EachRoomsFloorHasOneVoteInHoweverManyPieces) {
 TEST(ConsensusHeight, FollowsTheMajorityOfTheFloors) {
   EXPECT_EQ(ConsensusHeight({}, 0.015), 0);
   EXPECT_NEAR(ConsensusHeight({Vote(true, 0.01), Vote(true, 0.011), Vote(true, 0.2)}, 0.015), 0.01, 0.002);
-  EXPECT_NEAR(ConsensusHeight({Vote(true, 0.2, 0.2), Vote(true, 0.0, 0.8)}, 0.015), 0, 1e-12) << "a bench is a small piece of its room's floor";
+  EXPECT_NEAR(ConsensusHeight({Vote(true, 0.2, 0.2), Vote(true, 0.0, 0.8)}, 0.015), 0, 1e-12)
+      << "a bench is a small piece of its room's floor";
 }
 
 TEST(ConsensusHeight, AFloorCountsForMoreThanSomeCeilings) {

@@ -15,7 +15,8 @@ namespace {
 double Ate_m(const test::Drive& drive, const std::vector<Eigen::Isometry3d>& T_map_kf) {
   const Eigen::Isometry3d T_plan_map = drive.T_plan_kf[0] * T_map_kf[0].inverse();
   double sum_m2 = 0;
-  for (size_t i = 0; i < T_map_kf.size(); ++i) sum_m2 += (T_plan_map * T_map_kf[i].translation() - drive.T_plan_kf[i].translation()).squaredNorm();
+  for (size_t i = 0; i < T_map_kf.size(); ++i)
+    sum_m2 += (T_plan_map * T_map_kf[i].translation() - drive.T_plan_kf[i].translation()).squaredNorm();
   return std::sqrt(sum_m2 / static_cast<double>(T_map_kf.size()));
 }
 

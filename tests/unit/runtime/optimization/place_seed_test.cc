@@ -17,7 +17,8 @@ constexpr double kDeg = std::numbers::pi / 180;
 struct Scene {
   std::vector<WallFrame> frames;
   std::vector<WallMeasurement> walls;
-  void Add(const Eigen::Vector2d& pivot, const Eigen::Vector2d& normal, double offset_m, double yaw_rad, const Eigen::Vector3d& off, double bias_m) {
+  void Add(const Eigen::Vector2d& pivot, const Eigen::Vector2d& normal, double offset_m, double yaw_rad, const Eigen::Vector3d& off,
+           double bias_m) {
     WallFrame frame;
     frame.reference = SurfaceId(frames.size());
     frame.pivot << pivot, 0;
@@ -44,7 +45,8 @@ TEST(SeedPlace, UndeviatedMajorityDecides) {
         const bool deviated = i % 7 < 3;
         const double offset = deviated ? (i % 2 ? 1 : -1) * random.Uniform(0.08, 0.35) : random.Normal(0.003);
         const double yaw = deviated ? random.Uniform(-4, 4) * kDeg : random.Normal(0.05 * kDeg);
-        const Eigen::Vector2d pivot(random.Uniform(-10, 10), random.Uniform(-10, 10)), normal = (i % 2 ? 1 : -1) * Eigen::Vector2d(axis == 0, axis == 1);
+        const Eigen::Vector2d pivot(random.Uniform(-10, 10), random.Uniform(-10, 10)),
+            normal = (i % 2 ? 1 : -1) * Eigen::Vector2d(axis == 0, axis == 1);
         scene.Add(pivot, normal, offset, yaw, off, bias);
       }
     }

@@ -43,8 +43,8 @@ TEST(PlaneMoments, GiveTheSumOfSquaredDistancesToAnyPlane) {
     const double d = random.Uniform(-3, 3);
     double direct = 0;
     for (const auto& p : points) direct += std::pow(n.dot(p) + d, 2);
-    const double compressed = m.count * (std::pow(n.dot(m.center) + d, 2) + m.var_u * std::pow(n.dot(m.u), 2) + m.var_v * std::pow(n.dot(m.v), 2) +
-                                         m.var_normal * std::pow(n.dot(m.normal), 2));
+    const double compressed = m.count * (std::pow(n.dot(m.center) + d, 2) + m.var_u * std::pow(n.dot(m.u), 2) +
+                                         m.var_v * std::pow(n.dot(m.v), 2) + m.var_normal * std::pow(n.dot(m.normal), 2));
     EXPECT_NEAR(compressed, direct, 1e-9 * direct);
   }
 }
@@ -106,7 +106,8 @@ TEST(PlaneView, SmearBlursWhatItMovesAndTurnsOnly) {
   const PlaneMoments m = ComputeMoments(StatsOf(points));
   const auto view_with = [&](const Smear& smear) { return PlaneView(StatsOf(points), {0.03, 10, 0.005, 0.003, 0.0, smear}); };
   const PlaneView sharp = view_with({});
-  const PlaneView along = view_with({.m2 = 0.05 * 0.05 * m.u * m.u.transpose()}), across = view_with({.m2 = 0.05 * 0.05 * m.normal * m.normal.transpose()});
+  const PlaneView along = view_with({.m2 = 0.05 * 0.05 * m.u * m.u.transpose()}),
+                  across = view_with({.m2 = 0.05 * 0.05 * m.normal * m.normal.transpose()});
   EXPECT_NEAR(along.weight_center, sharp.weight_center, 1e-3 * sharp.weight_center) << "driving along a wall";
   EXPECT_NEAR(1 / across.weight_center, std::hypot(1 / sharp.weight_center, 0.05), 1e-6) << "driving towards it";
   EXPECT_NEAR(across.weight_u, sharp.weight_u, 1e-9);
@@ -179,12 +180,14 @@ TEST(Residuals, JacobiansAgreeWithDifferences) {
     z << RandomPose(s.random), RandomPoint(s.random, 1).normalized(), 2.0;
     ExpectJacobian<3>([&](const auto* p, auto* r) { free(p, p + 7, r); }, z);
 
-    const OdometryResidual odometry{Eigen::Translation3d(RandomPoint(s.random, 1)) * Eigen::AngleAxisd(0.3, RandomPoint(s.random, 1).normalized()), 0.01, 0.002};
+    const OdometryResidual odometry{
+        Eigen::Translation3d(RandomPoint(s.random, 1)) * Eigen::AngleAxisd(0.3, RandomPoint(s.random, 1).normalized()), 0.01, 0.002};
     Eigen::VectorXd w(14);
     w << RandomPose(s.random), RandomPose(s.random);
     ExpectJacobian<6>([&](const auto* p, auto* r) { odometry(p, p + 7, r); }, w);
 
-    const AnchorResidual anchor{Eigen::Isometry3d(Eigen::Translation3d(1, 2, 3) * Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitX())), 0.1, 0.1, 0.2};
+    const AnchorResidual anchor{Eigen::Isometry3d(Eigen::Translation3d(1, 2, 3) * Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitX())), 0.1,
+                                0.1, 0.2};
     ExpectJacobian<6>([&](const auto* p, auto* r) { anchor(p, r); }, RandomPose(s.random));
   }
 }
@@ -248,7 +251,8 @@ TEST(Residuals, AreZeroAtTheTruth) {
 TEST(Deviation, TwoParametersAndTiltHaveNoFreeDirectionWhileSixHave) {
   RandomScene s(3);
   const auto plane_of = [&](const Eigen::Matrix<double, 6, 1>& x) {  // x: translation, rotation about the pivot
-    const Eigen::AngleAxisd turn(x.tail<3>().norm(), x.tail<3>().norm() > 0 ? Eigen::Vector3d(x.tail<3>().normalized()) : Eigen::Vector3d::UnitX());
+    const Eigen::AngleAxisd turn(x.tail<3>().norm(),
+                                 x.tail<3>().norm() > 0 ? Eigen::Vector3d(x.tail<3>().normalized()) : Eigen::Vector3d::UnitX());
     const Eigen::Vector3d n = turn * s.face.normal;
     return Eigen::Vector4d(n.x(), n.y(), n.z(), -n.dot(s.face.pivot + turn * (s.face.point - s.face.pivot) + x.head<3>()));
   };

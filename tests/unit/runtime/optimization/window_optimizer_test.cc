@@ -14,7 +14,8 @@ double WorstOf(const std::vector<Eigen::Isometry3d>& poses, const test::Drive& d
   const Eigen::Isometry3d T_map_plan = drive.T_plan_map.inverse();
   double worst_m = 0;
   const size_t first = drive.T_plan_kf.size() - poses.size();
-  for (size_t i = 0; i < poses.size(); ++i) worst_m = std::max(worst_m, ((T_map_plan * drive.T_plan_kf[first + i]).inverse() * poses[i]).translation().norm());
+  for (size_t i = 0; i < poses.size(); ++i)
+    worst_m = std::max(worst_m, ((T_map_plan * drive.T_plan_kf[first + i]).inverse() * poses[i]).translation().norm());
   return worst_m;
 }
 
@@ -35,7 +36,8 @@ test::Drive DriveWithLostEnd(double off_m) {
 TEST(OptimizeWindow, LaysTheNewestKeyframesOnTheMap) {
   const test::Drive drive = DriveWithLostEnd(0.03);
   std::vector<Eigen::Isometry3d> before;
-  for (size_t i = drive.map.keyframes.size() - kCount; i < drive.map.keyframes.size(); ++i) before.push_back(drive.map.keyframes[i].T_map_kf);
+  for (size_t i = drive.map.keyframes.size() - kCount; i < drive.map.keyframes.size(); ++i)
+    before.push_back(drive.map.keyframes[i].T_map_kf);
   EXPECT_GT(WorstOf(before, drive), 0.03);
   const std::vector<Eigen::Isometry3d> after = OptimizeWindow(drive.map, kCount, {});
   ASSERT_EQ(after.size(), kCount);

@@ -24,7 +24,8 @@ struct Drift {
 
 using GivenOf = std::function<Eigen::Isometry3d(size_t)>;
 
-Drift RunDrive(const std::vector<Pose2>& drive, double period_s, const GivenOf& given = {}, const Eigen::Isometry3d& T_laser_level = Eigen::Isometry3d::Identity()) {
+Drift RunDrive(const std::vector<Pose2>& drive, double period_s, const GivenOf& given = {},
+               const Eigen::Isometry3d& T_laser_level = Eigen::Isometry3d::Identity()) {
   const test::PlanarWorld world = test::MakeLoopWorld();
   Odometry odometry;
   Drift drift;

@@ -22,7 +22,9 @@ TEST(PointToLine, JacobianIsTheNumericOne) {
   constexpr double kStep = 1e-6;
   for (int i = 0; i < 6; ++i) {
     const auto at = [&](double h) {
-      const auto moved = [&](const Pose2& p, int k) { return Pose2{p.t_m + Eigen::Vector2d(k == 0 ? h : 0, k == 1 ? h : 0), p.yaw_rad + (k == 2 ? h : 0)}; };
+      const auto moved = [&](const Pose2& p, int k) {
+        return Pose2{p.t_m + Eigen::Vector2d(k == 0 ? h : 0, k == 1 ? h : 0), p.yaw_rad + (k == 2 ? h : 0)};
+      };
       return EvaluatePointToLine(moved(pose, i), moved(correction, i - 3), point, normal, mean).residual_m;
     };
     EXPECT_NEAR(e.jacobian[i], (at(kStep) - at(-kStep)) / (2 * kStep), 1e-7) << i;
@@ -56,7 +58,8 @@ TEST(PlanarRegistration, KnowsNothingAlongACorridorWithoutEnd) {
   const PlanarScan scan = ScanAt(world, {{0, 0}, turn_rad}, 1);
   const std::vector<PlacedScan> placed = {{&scan, {{0, 0}, turn_rad}}};
   const Pose2 start{0.3 * along, turn_rad};
-  const PlanarRegistration r = RegisterPlanar(ScanAt(world, {0.5 * along, turn_rad}, 2), LinesOf(placed, 0.02), start, {start, 0.2, 0.05}, {});
+  const PlanarRegistration r =
+      RegisterPlanar(ScanAt(world, {0.5 * along, turn_rad}, 2), LinesOf(placed, 0.02), start, {start, 0.2, 0.05}, {});
   ASSERT_TRUE(r.ok);
   EXPECT_NEAR(r.pose.t_m.dot(along), 0.3, 0.03);  // stays where it started
   EXPECT_NEAR(r.pose.t_m.dot(across), 0, 0.01);

@@ -78,7 +78,8 @@ TEST(PlanarScan, TakesOutTheMotionDuringTheSweep) {
 
 TEST(Leveled, SplitsAPoseAndPutsItTogetherAgain) {
   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  T.linear() = (Eigen::AngleAxisd(2.5, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, -1, 0).normalized())).toRotationMatrix();
+  T.linear() = (Eigen::AngleAxisd(2.5, Eigen::Vector3d::UnitZ()) * Eigen::AngleAxisd(0.3, Eigen::Vector3d(1, -1, 0).normalized()))
+                   .toRotationMatrix();
   T.translation() << 1, 2, 3;
   const LeveledPose leveled = Leveled(T);
   EXPECT_LT((leveled.Lifted().matrix() - T.matrix()).norm(), 1e-12);

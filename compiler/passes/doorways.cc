@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "compiler/geometry/box_tree.h"
 #include "compiler/passes/face_locator.h"
 #include "compiler/passes/polygon.h"
 
@@ -32,13 +33,22 @@ class DoorwayMaker {
   }
 
   OpeningElements Run(const std::vector<HostedOpening>& openings) {
-    for (const HostedOpening& o : openings) {
+    std::vector<Eigen::AlignedBox3d> places;
+    for (const HostedOpening& o : openings) places.push_back(PlaceOf(o));
+    const BoxTree<3> tree(std::move(places));
+    std::vector<bool> leads_through(openings.size());
+    for (size_t i = 0; i < openings.size(); ++i) leads_through[i] = openings[i].use == OpeningUse::kDoor;
+    for (size_t i = 0; i < openings.size(); ++i) {
+      const HostedOpening& o = openings[i];
       if (o.use == OpeningUse::kWindow) AddWindow(o);
       if (o.use == OpeningUse::kDoor) AddDoorway(o);
-      if (o.use == OpeningUse::kUnfilled && IsPassage(o) && !IsKnown(o, openings)) {
-        AddDoorway(o);
-        passages_.push_back(&o);
-      }
+      if (o.use != OpeningUse::kUnfilled || !IsPassage(o)) continue;
+      // A door or an earlier opening may lead through the same place.
+      bool is_known = false;
+      tree.ForEachIn(PlaceOf(o), [&](uint32_t k) { is_known |= leads_through[k] && IsSamePlace(o, openings[k]); });
+      if (is_known) continue;
+      AddDoorway(o);
+      leads_through[i] = true;
     }
     return std::move(elements_);
   }
@@ -86,16 +96,20 @@ class DoorwayMaker {
     return o.z_min_m <= floor_z + options_.max_sill_m && o.z_max_m - std::max(o.z_min_m, floor_z) >= options_.min_height_m;
   }
 
-  // A door or an earlier opening leads through the same place.
-  bool IsKnown(const HostedOpening& o, const std::vector<HostedOpening>& openings) const {
-    const auto same = [&](const HostedOpening& other) {
-      const Eigen::Vector2d offset = other.center - o.center;
-      return other.floor == o.floor && std::abs(offset.dot(o.along)) < 0.5 * std::max(o.width_m, other.width_m) &&
-             std::abs(Cross(o.along, offset)) < options_.max_reach_m &&
-             std::min(o.z_max_m, other.z_max_m) > std::max(o.z_min_m, other.z_min_m);
-    };
-    return std::any_of(openings.begin(), openings.end(), [&](const HostedOpening& d) { return d.use == OpeningUse::kDoor && same(d); }) ||
-           std::any_of(passages_.begin(), passages_.end(), [&](const HostedOpening* p) { return same(*p); });
+  bool IsSamePlace(const HostedOpening& o, const HostedOpening& other) const {
+    const Eigen::Vector2d offset = other.center - o.center;
+    return other.floor == o.floor && std::abs(offset.dot(o.along)) < 0.5 * std::max(o.width_m, other.width_m) &&
+           std::abs(Cross(o.along, offset)) < options_.max_reach_m &&
+           std::min(o.z_max_m, other.z_max_m) > std::max(o.z_min_m, other.z_min_m);
+  }
+
+  // Those of two openings in the same place meet.
+  Eigen::AlignedBox3d PlaceOf(const HostedOpening& o) const {
+    const Eigen::Vector2d reach = Eigen::Vector2d::Constant(0.5 * o.width_m + options_.max_reach_m);
+    Eigen::AlignedBox3d out;
+    out.min() << o.center - reach, o.z_min_m;
+    out.max() << o.center + reach, o.z_max_m;
+    return out;
   }
 
   // Fills what doorways and windows have in common; `out.yaw_rad` from the first side to the second.
@@ -174,7 +188,6 @@ class DoorwayMaker {
   AGraph& graph_;
   DiagnosticSink& sink_;
   OpeningElements elements_;
-  std::vector<const HostedOpening*> passages_;  // unfilled ones that are doorways
 };
 
 }  // namespace

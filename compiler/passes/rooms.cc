@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "compiler/geometry/box_tree.h"
@@ -20,6 +21,7 @@ constexpr double kFloorSearch_m = 1.0;      // a floor further below its level t
 constexpr double kCornerReach_m = 0.02;     // from the corner of an opening to the border of the room it leads to
 constexpr double kDoorReach_m = 0.6;        // from the middle of a door to the room behind its wall
 constexpr double kHeadroom_m = 0.3;         // ceilings are looked for from here above the floor
+constexpr double kBeforeDoor_m = 0.3;       // from the border of a room to where one stands before a door
 
 double Median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -76,6 +78,7 @@ class RoomFinder {
         below_(plan, {ElementKind::kSlab, ElementKind::kRoof, ElementKind::kCovering, ElementKind::kGround}),
         standing_(plan, {ElementKind::kSlab, ElementKind::kRoof, ElementKind::kGround, ElementKind::kStair}),
         above_(plan, {ElementKind::kSlab, ElementKind::kRoof, ElementKind::kCovering}),
+        stairs_(plan, {ElementKind::kStair}),
         has_walls_(graph.storeys.size(), false) {
     for (const PlanWall& wall : floors.walls) {
       if (wall.storey < has_walls_.size()) has_walls_[wall.storey] = true;
@@ -186,15 +189,39 @@ class RoomFinder {
     return c.floor_share < options_.min_floor_share && c.deep_share >= 0.5 && !HasDoor(level, c.rings);
   }
 
-  bool HasDoor(const Level& level, const std::vector<Ring>& rings) const {
-    bool found = false;
+  bool HasDoor(const Level& level, const std::vector<Ring>& rings) const { return !DoorsOf(level, rings).empty(); }
+
+  // Middles of the level's doors in the room and on its border.
+  std::vector<Eigen::Vector2d> DoorsOf(const Level& level, const std::vector<Ring>& rings) const {
+    std::vector<Eigen::Vector2d> out;
     doors_.ForEachIn(Around(rings, kDoorReach_m, level), [&](uint32_t d) {
       const Eigen::AlignedBox3d& box = door_boxes_[d];
-      if (found || !IsOfLevel(level, box.min().z())) return;
       const Eigen::Vector2d at = box.center().head<2>();
-      found = WindingNumber(rings, at) != 0 || DistanceToRings(at, rings) <= kDoorReach_m;
+      if (!IsOfLevel(level, box.min().z())) return;
+      if (WindingNumber(rings, at) != 0 || DistanceToRings(at, rings) <= kDoorReach_m) out.push_back(at);
     });
-    return found;
+    return out;
+  }
+
+  // Where one stands before each of the room's doors: from the side of the room next to it straight inwards.
+  std::vector<Eigen::Vector2d> PlacesBeforeDoors(const Level& level, const std::vector<Ring>& rings) const {
+    std::vector<Eigen::Vector2d> out;
+    for (const Eigen::Vector2d& door : DoorsOf(level, rings)) {
+      double least_m = std::numeric_limits<double>::infinity();
+      Eigen::Vector2d place = door;
+      for (const Ring& ring : rings) {
+        for (size_t i = 0; i < ring.size(); ++i) {
+          const Eigen::Vector2d &a = ring[i], side = ring[(i + 1) % ring.size()] - a;
+          const Eigen::Vector2d foot = a + std::clamp(side.dot(door - a) / side.squaredNorm(), 0.0, 1.0) * side;
+          const double distance_m = (door - foot).norm();
+          if (distance_m >= least_m) continue;
+          least_m = distance_m;
+          place = foot + kBeforeDoor_m * Rot90Ccw(side.normalized());
+        }
+      }
+      out.push_back(place);
+    }
+    return out;
   }
 
   void ReportVoid(const Level& level, const Candidate& c) {
@@ -216,20 +243,39 @@ class RoomFinder {
     return RoomId(graph_.rooms.size() - 1);
   }
 
+  // The middle height of the level's floor at these places; none where most show no floor.
+  std::optional<double> FloorAt(const Level& level, const std::vector<Eigen::Vector2d>& places) const {
+    std::vector<double> hits;
+    for (const auto& p : places) {
+      const std::optional<double> z = below_.Below(p, level.section_z_m);
+      if (z && IsOfLevel(level, *z)) hits.push_back(*z);
+    }
+    if (hits.empty() || 2 * hits.size() < places.size()) return std::nullopt;
+    return Median(std::move(hits));
+  }
+
+  // Stairs overhead count where a person can stand below them: on the floor or on the flight below.
+  std::optional<double> CeilingAt(const Eigen::Vector2d& p, double floor_z_m) const {
+    const std::optional<double> ceiling = above_.Above(p, floor_z_m + kHeadroom_m);
+    double below_z_m = floor_z_m;
+    while (const std::optional<double> stairs = stairs_.Above(p, below_z_m + kHeadroom_m)) {
+      if (ceiling && *stairs >= *ceiling) break;
+      if (*stairs >= below_z_m + options_.min_clear_height_m) return stairs;
+      below_z_m = *stairs;
+    }
+    return ceiling;
+  }
+
   // False if a person cannot stand in it.
   bool SetHeights(const Level& level, const Candidate& c, Room& room) {
     const std::vector<Eigen::Vector2d>& probes = c.probes;
-    std::vector<double> floor_hits, ceiling_hits;
-    for (const auto& p : probes) {
-      const std::optional<double> z = below_.Below(p, level.section_z_m);
-      if (z && IsOfLevel(level, *z)) floor_hits.push_back(*z);
-    }
-    const bool has_floor = 2 * floor_hits.size() >= probes.size();
-    room.floor_z_m = has_floor ? Median(floor_hits) : graph_.storeys[level.first_storey].elevation_m;
+    std::optional<double> floor_z_m = FloorAt(level, probes);
+    if (!floor_z_m) floor_z_m = FloorAt(level, PlacesBeforeDoors(level, c.rings));  // most of a stair hall is open to below
+    room.floor_z_m = floor_z_m.value_or(graph_.storeys[level.first_storey].elevation_m);
     room.storey = StoreyAt(level, room.floor_z_m);
+    std::vector<double> ceiling_hits;
     for (const auto& p : probes) {
-      const std::optional<double> z = above_.Above(p, room.floor_z_m + kHeadroom_m);
-      if (z) ceiling_hits.push_back(*z);
+      if (const std::optional<double> z = CeilingAt(p, room.floor_z_m)) ceiling_hits.push_back(*z);
     }
     const bool has_ceiling = 2 * ceiling_hits.size() >= probes.size();
     room.ceiling_z_m = has_ceiling ? Median(ceiling_hits) : std::max(level.top_z_m, room.floor_z_m + kHeadroom_m);
@@ -258,7 +304,7 @@ class RoomFinder {
   const RoomOptions& options_;
   AGraph& graph_;
   DiagnosticSink& sink_;
-  VerticalProbe below_, standing_, above_;
+  VerticalProbe below_, standing_, above_, stairs_;
   std::vector<bool> has_walls_;  // by storey
   std::vector<Eigen::AlignedBox3d> door_boxes_;
   BoxTree<3> doors_, openings_;

@@ -24,8 +24,9 @@ using RoomsByFace = std::vector<std::vector<RoomId>>;
 
 // Appends to graph.rooms in the order of floors and faces; surfaces and names come later. Walls and columns that stand free become holes.
 // Rooms that an opening wider than any door joins stay apart, with a doorway between them. Floor and ceiling heights are the medians of
-// vertical probes into slabs, roofs, coverings and ground; without any: the storey's elevation and the next level's. Needs graph.storeys.
-// Where slabs are drawn, the upper part of a room further down (a void) is no room of its own.
+// vertical probes into slabs, roofs, coverings and ground; stairs overhead are a ceiling where a person can stand below them. Where most of
+// a room shows no floor, as in a stair hall, the floor before its doors counts. Without any: the storey's elevation and the next level's.
+// Where slabs are drawn, the upper part of a room further down (a void) is no room of its own. Needs graph.storeys.
 [[nodiscard]] RoomsByFace FindRooms(const PlanIr& plan, const FloorIr& floors, const RoomOptions& options, AGraph& graph,
                                     DiagnosticSink& sink);
 

@@ -106,13 +106,15 @@ std::optional<WallAxis> AxisOfArcs(const std::vector<Arc>& arcs) {
   return WallAxis{at(outer->start_rad), at(outer->start_rad + outer->sweep_rad), thickness};
 }
 
-const Footprint* FootprintOf(const FloorIr& floors, uint32_t wall) {
+// By wall: its lowest footprint; null where no height has a section of it.
+std::vector<const Footprint*> LowestFootprints(const FloorIr& floors) {
+  std::vector<const Footprint*> out(floors.walls.size(), nullptr);
   for (const Floor& floor : floors.floors) {
     for (const Footprint& f : floor.footprints) {
-      if (f.wall == wall) return &f;
+      if (f.wall < out.size() && out[f.wall] == nullptr) out[f.wall] = &f;
     }
   }
-  return nullptr;
+  return out;
 }
 
 // All points of the wall's solids from above, where no height of them has a section.
@@ -142,6 +144,7 @@ WallAxis AxisOfFootprint(const std::vector<Ring>& rings, const Eigen::Vector2d& 
 }
 
 void AddWalls(const PlanIr& plan, const FloorIr& floors, AGraph& graph) {
+  const std::vector<const Footprint*> footprints = LowestFootprints(floors);
   for (uint32_t w = 0; w < floors.walls.size(); ++w) {
     const PlanWall& in = floors.walls[w];
     const PlanElement& element = plan.elements[in.elements[0]];
@@ -154,8 +157,7 @@ void AddWalls(const PlanIr& plan, const FloorIr& floors, AGraph& graph) {
     out.z_max_m = in.z_max_m;
     out.external = element.external;
     const Eigen::Vector2d stated = element.axis ? Eigen::Vector2d(element.axis->second - element.axis->first) : Eigen::Vector2d(0, 0);
-    const Footprint* footprint = FootprintOf(floors, w);
-    const std::vector<Ring> rings = footprint != nullptr ? footprint->rings : Silhouette(plan, in);
+    const std::vector<Ring> rings = footprints[w] != nullptr ? footprints[w]->rings : Silhouette(plan, in);
     WallAxis axis = AxisOfArcs(in.arcs).value_or(AxisOfFootprint(rings, stated));
     if (stated.dot(axis.end - axis.start) < 0) std::swap(axis.start, axis.end);
     out.axis_start = axis.start;

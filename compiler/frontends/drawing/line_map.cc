@@ -224,7 +224,9 @@ void LineMap::PlaceHoles(const std::vector<uint32_t>& loops, const std::vector<d
     leftmost[l] = From(loops[l]);
     for (uint32_t h = next_[loops[l]]; h != loops[l]; h = next_[h]) {
       const Eigen::Vector2d &p = FromPoint(h), &best = vertices_[leftmost[l]];
-      if (std::make_pair(p.x(), p.y()) < std::make_pair(best.x(), best.y())) leftmost[l] = From(h);
+      // Of several the upper one: from the lower ends of a row of rooms each ray would pass below all the others, as lines belong to the
+      // ray at their upper end.
+      if (std::make_pair(p.x(), -p.y()) < std::make_pair(best.x(), -best.y())) leftmost[l] = From(h);
     }
   }
   // From left to right: what a hole's ray to the left hits has its place already.

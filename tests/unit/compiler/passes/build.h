@@ -27,6 +27,13 @@ inline Floor FloorOf(const std::vector<Ring>& walls) {
   return floor;
 }
 
+// Triangles, each with a side through (0.3, 0.7). Snapped within this radius, less than doubles resolve there, the pieces of these sides
+// that rounding bends cross each other again.
+inline constexpr double kTangleRadius_m = 1e-15;
+inline std::vector<Ring> Tangle() {
+  return {{{0.1, -4.6}, {0.5, 6}, {-5, 0.9}}, {{3.8, -3.8}, {-3.2, 5.2}, {-4.2, -2.8}}, {{-3.6, -0.7}, {4.2, 2.1}, {-1.1, 4.6}}};
+}
+
 inline size_t CountOf(const DiagnosticSink& sink, DiagnosticKind kind) {
   size_t n = 0;
   for (const Diagnostic& d : sink.all()) n += d.kind == kind;

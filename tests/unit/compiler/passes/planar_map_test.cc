@@ -3,7 +3,9 @@
 #include <gtest/gtest.h>
 
 #include "compiler/passes/face_locator.h"
+#include "compiler/passes/floor_outlines.h"
 #include "compiler/passes/polygon.h"
+#include "compiler/passes/snap.h"
 #include "tests/support/plan_builder.h"
 #include "tests/unit/compiler/passes/build.h"
 
@@ -83,6 +85,21 @@ TEST(PlanarMap, FootprintsThatDoNotBoundRoomsAreLeftOut) {
   floor.footprints[0].bounds_rooms = false;
   ASSERT_TRUE(BuildPlanarMap(floor, {}));
   EXPECT_TRUE(FreeAreas(floor).empty());
+}
+
+TEST(PlanarMap, WhatSnappingLeavesCrossedIsResolvedExactly) {
+  const std::vector<Ring> triangles = Tangle();
+  Floor floor = FloorOf(triangles);
+  PlanarMapOptions options;
+  options.snap_radius_m = kTangleRadius_m;
+  ASSERT_FALSE(Snap(OutlinesOf(floor), options.snap_radius_m).is_planar);
+  ASSERT_TRUE(BuildPlanarMap(floor, options));
+  EXPECT_FALSE(floor.faces[0].bounded());
+  for (uint32_t t = 0; t < triangles.size(); ++t) {
+    double covered_m2 = 0;
+    for (const FloorFace& f : floor.faces) covered_m2 += std::binary_search(f.cover.begin(), f.cover.end(), t) ? f.area_m2 : 0;
+    EXPECT_NEAR(covered_m2, SignedArea(triangles[t]), 1e-9) << t;
+  }
 }
 
 TEST(PlanarMap, AnEmptyLevelHasTheOutsideOnly) {

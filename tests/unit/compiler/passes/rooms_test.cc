@@ -231,5 +231,44 @@ TEST(FindRooms, HeightsComeFromSlabsAndFallBackToStoreys) {
   EXPECT_DOUBLE_EQ(without.storeys[0].height_m, 2.7);
 }
 
+// On the left a stair hall, open to below but for the landing before its door; the storey's zero is not what one walks on.
+TEST(FindRooms, AStairHallStandsAtTheHeightBeforeItsDoors) {
+  const auto hall_floor_m = [](bool landing) {
+    test::PlanBuilder b;
+    b.Storey("Ground", 0);
+    b.Wall("s", {-0.2, -0.1}, {8.2, -0.1}, 0.2, 0, 3);
+    b.Wall("n", {-0.2, 4.1}, {8.2, 4.1}, 0.2, 0, 3);
+    b.Wall("w", {-0.1, 0}, {-0.1, 4}, 0.2, 0, 3);
+    b.Wall("e", {8.1, 0}, {8.1, 4}, 0.2, 0, 3);
+    b.Door("D", b.Wall("inner", {4, 0}, {4, 4}, 0.2, 0, 3), 2, 0.9, 0.18, 2.2);
+    b.Prismatic(ElementKind::kSlab, "floor", test::Rectangle({4, -0.2}, {8.2, 4.2}), 0, 0.18);
+    if (landing) b.Prismatic(ElementKind::kSlab, "landing", test::Rectangle({2.9, 0}, {4, 4}), 0, 0.18);
+    const AGraph graph = Build(b.plan).graph;
+    EXPECT_EQ(graph.rooms.size(), 2u);
+    const bool first_is_hall = graph.rooms.at(0).center.x() < 4;
+    EXPECT_DOUBLE_EQ(graph.rooms.at(first_is_hall ? 1 : 0).floor_z_m, 0.18);
+    return graph.rooms.at(first_is_hall ? 0 : 1).floor_z_m;
+  };
+  EXPECT_DOUBLE_EQ(hall_floor_m(true), 0.18);
+  EXPECT_DOUBLE_EQ(hall_floor_m(false), 0) << "no floor before its door either: the storey's zero";
+}
+
+TEST(FindRooms, AFlightOfStairsWithRoomBelowItIsACeiling) {
+  const auto ceiling_m = [](const std::vector<std::pair<double, double>>& flights_m) {
+    test::PlanBuilder b;
+    b.plan = test::TwoRooms();
+    b.On(0);
+    for (const auto& [from_m, to_m] : flights_m)
+      b.Prismatic(ElementKind::kStair, "flight", test::Rectangle({0, 0}, {4.9, 3}), from_m, to_m);
+    const AGraph graph = Build(b.plan).graph;
+    const Room* west = FindRoom(graph, "West");
+    return west != nullptr ? west->ceiling_z_m : 0;
+  };
+  EXPECT_DOUBLE_EQ(ceiling_m({{2.0, 2.2}}), 2.0);
+  EXPECT_DOUBLE_EQ(ceiling_m({{1.2, 1.4}}), 2.5) << "nobody stands below it";
+  EXPECT_DOUBLE_EQ(ceiling_m({{0.0, 0.6}, {2.2, 2.4}}), 2.2) << "seen from the flight below";
+  EXPECT_DOUBLE_EQ(ceiling_m({{2.6, 2.8}}), 2.5) << "above the ceiling";
+}
+
 }  // namespace
 }  // namespace plumb::compiler

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include "compiler/passes/floor_outlines.h"
+#include "tests/unit/compiler/passes/build.h"
+
 namespace plumb::compiler {
 namespace {
 
@@ -46,26 +49,11 @@ TEST(Snap, SaysThatSegmentsMeetInVerticesOnly) {
 }
 
 TEST(Snap, SaysWhatItLeavesToExactArithmetic) {
-  // A fan of lines through one place, each round closer to each other than the radius allows, but not closer than vertices.
-  SnapGraph graph;
-  for (uint32_t i = 0; i < 40; ++i) {
-    const double y = 0.003 * i;
-    const auto first = static_cast<uint32_t>(graph.vertices.size());
-    graph.vertices.insert(graph.vertices.end(), {{-5, y}, {5, 0.117 - y}});
-    graph.segments.push_back({first, first + 1, i});
-  }
-  const SnapGraph snapped = Snap(graph, 0.002);
-  for (size_t i = 0; snapped.is_planar && i < snapped.segments.size(); ++i) {
-    for (size_t k = 0; k < i; ++k) {
-      const SnapSegment &s = snapped.segments[i], &r = snapped.segments[k];
-      if (s.from == r.from || s.from == r.to || s.to == r.from || s.to == r.to) continue;
-      const auto side = [&](uint32_t p, const SnapSegment& of) {
-        const Eigen::Vector2d d = snapped.vertices[of.to] - snapped.vertices[of.from], w = snapped.vertices[p] - snapped.vertices[of.from];
-        return d.x() * w.y() - d.y() * w.x() > 0;
-      };
-      EXPECT_FALSE(side(s.from, r) != side(s.to, r) && side(r.from, s) != side(r.to, s)) << i << " crosses " << k;
-    }
-  }
+  const SnapGraph outlines = OutlinesOf(FloorOf(Tangle()));
+  const SnapGraph snapped = Snap(outlines, kTangleRadius_m);
+  EXPECT_FALSE(snapped.is_planar);
+  ExpectClosed(snapped, 3);
+  EXPECT_TRUE(Snap(outlines, 0.002).is_planar) << "the radius makes the three crossings one vertex";
 }
 
 TEST(Snap, SegmentsOverEachOtherAreSplitAlikeWhicheverWayTheyRun) {

@@ -43,7 +43,8 @@ struct FaceLabel {
   uint32_t space = kNoIndex;   // divider that the face belongs to
 };
 
-// Of outlines that meet in vertices only nothing is constructed: doubles do for its numbers, and its predicates are exact all the same.
+// Of outlines that meet in vertices only no crossing is constructed: doubles do. Predicates on points are exact; slopes about a vertex are
+// compared by rounded lines, which the snapping's radius keeps far apart.
 using PlanarKernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using CrossingKernel = CGAL::Exact_predicates_exact_constructions_kernel;
 

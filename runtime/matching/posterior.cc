@@ -56,6 +56,10 @@ bool IsRival(const Candidate& best, const Candidate& other, const MatcherOptions
   return best.score() - other.score() < options.accept_margin_nats && prior_lead < options.hint_lead_nats;
 }
 
+std::string OthersAlike(std::ptrdiff_t count) {
+  return count == 1 ? "1 other place in the plan looks alike" : fmt::format("{} other places in the plan look alike", count);
+}
+
 }  // namespace
 
 bool Distinct(const Candidate& a, const Candidate& b) {
@@ -159,12 +163,12 @@ MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, con
   result.reason = Doubt(sorted.front(), best, RequiredPlanes(plan.rooms.size(), sorted.front().log_prior, options), by_rays, wrong.scaled,
                         options);
   if (!result.reason.empty()) {
-    if (rivals > 0) result.reason += fmt::format("; {} other places in the plan look alike", rivals);
+    if (rivals > 0) result.reason += "; " + OthersAlike(rivals);
     return result;
   }
   if (rivals > 0) {
     result.verdict = MatchResult::Verdict::kAmbiguous;
-    result.reason = fmt::format("{} other places in the plan look alike", rivals);
+    result.reason = OthersAlike(rivals);
   } else if (best.probability < options.accept_probability) {
     result.reason = fmt::format("its probability is only {:.4f}", best.probability);
   } else {

@@ -189,6 +189,10 @@ Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
   flags.options.hint = *hint;
   const auto recording = runtime::Recording::Open(flags.recording);
   if (!recording) return session.Fail(recording.error());
+  std::error_code error;
+  if (fs::equivalent(flags.output, flags.recording, error)) {
+    return session.Fail({ErrorCode::kBadOption, fmt::format("--output {}; must be another folder than the recording's", flags.output)});
+  }
   if (const auto ready = PrepareOutput(flags.output); !ready) return session.Fail(ready.error());
 
   UpdateWriter updates(*plan, flags.updates, (fs::path(flags.output) / "deviations.json").string());
@@ -196,8 +200,9 @@ Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
   flags.options.on_update = [&updates](const runtime::EstimateUpdate& update) { updates.Write(update); };
   flags.options.update_every_solve = !flags.updates.empty();
 
+  InterruptGuard interrupt;  // until all is written: a signal that comes late is no reason to lose it
   Replayer replayer(*plan, flags.options, flags.replay);
-  const auto results = replayer.Run(*recording, session.console);
+  const auto results = replayer.Run(*recording, session.console, interrupt);
   if (const auto written = updates.Close(); !written) return session.Fail(written.error());
   if (!results) return session.Fail(results.error());
   runtime::Localizer& localizer = replayer.localizer();

@@ -6,7 +6,6 @@
 #include <functional>
 #include <utility>
 
-#include "tools/plumb/interrupt.h"
 #include "tools/plumb/match_rows.h"
 
 namespace plumb::tools {
@@ -16,8 +15,9 @@ namespace {
 class Collector {
  public:
   // `request_update`: called where the user asks what is known.
-  Collector(const AGraph& plan, size_t num_scans, bool paced, Console& console, std::function<void()> request_update)
-      : plan_(plan), num_scans_(num_scans), paced_(paced), console_(console), request_update_(std::move(request_update)) {}
+  Collector(const AGraph& plan, size_t num_scans, bool paced, Console& console, InterruptGuard& interrupt,
+            std::function<void()> request_update)
+      : plan_(plan), num_scans_(num_scans), paced_(paced), console_(console), interrupt_(interrupt), request_update_(std::move(request_update)) {}
 
   // False once the user has had enough.
   bool Add(const runtime::ReplayedScan& scan) {
@@ -66,8 +66,8 @@ class Collector {
   size_t num_scans_;
   bool paced_;
   Console& console_;
+  InterruptGuard& interrupt_;
   std::function<void()> request_update_;
-  InterruptGuard interrupt_;
   Error last_error_{ErrorCode::kBadScan, "no scan lies between --start and the end of the recording"};
   std::vector<double> latencies_ms_;
   ReplayResults results_;
@@ -84,8 +84,8 @@ Replayer::Replayer(const AGraph& plan, const runtime::LocalizerOptions& localize
   }
 }
 
-Expected<ReplayResults> Replayer::Run(const runtime::Recording& recording, Console& console) {
-  Collector collector(plan_, recording.size(), online_.has_value(), console, [this] { RequestUpdate(); });
+Expected<ReplayResults> Replayer::Run(const runtime::Recording& recording, Console& console, InterruptGuard& interrupt) {
+  Collector collector(plan_, recording.size(), online_.has_value(), console, interrupt, [this] { RequestUpdate(); });
   const auto sink = [&](const runtime::ReplayedScan& scan) { return collector.Add(scan); };
   if (offline_) {
     runtime::ReplayOffline(recording, replay_, *offline_, sink);

@@ -7,6 +7,7 @@
 
 #include "runtime/localizer/replay.h"
 #include "tools/plumb/console.h"
+#include "tools/plumb/interrupt.h"
 #include "tools/run/run_folder.h"
 #include "tools/run/run_info.h"
 #include "tools/run/tries_json.h"
@@ -31,7 +32,7 @@ class Replayer {
   Replayer(const AGraph& plan, const runtime::LocalizerOptions& localizer, const runtime::ReplayOptions& replay);
 
   // Errors: kBadScan (no scan could be read, or none lies in the time asked for).
-  [[nodiscard]] Expected<ReplayResults> Run(const runtime::Recording& recording, Console& console);
+  [[nodiscard]] Expected<ReplayResults> Run(const runtime::Recording& recording, Console& console, InterruptGuard& interrupt);
 
   // After Run.
   [[nodiscard]] runtime::Localizer& localizer() { return offline_ ? *offline_ : *drained_; }

@@ -21,7 +21,9 @@ size_t NumPlaces(const TryRow& attempt) { return std::min(attempt.hypotheses.siz
 
 std::string Arrow(const HypothesisRow& place, size_t number, const Sheet& sheet) {
   const double unit = std::max(1.0, sheet.width() / kPage);
-  const double x = sheet.x(place.position_m.x()), y = sheet.y(place.position_m.y());
+  // Places beyond the sheet are drawn at its edge.
+  const double x = std::clamp(sheet.x(place.position_m.x()), unit * kArrow, std::max(unit * kArrow, sheet.width() - unit * kArrow));
+  const double y = std::clamp(sheet.y(place.position_m.y()), unit * kArrow, std::max(unit * kArrow, sheet.height() - unit * kArrow));
   const auto corner = [&](double angle_rad, double radius) {  // the sheet's y points down
     return fmt::format("{} {}", Decimal(x + radius * std::cos(angle_rad)), Decimal(y - radius * std::sin(angle_rad)));
   };
@@ -69,12 +71,13 @@ std::string PlacesHtml(const TryRow& attempt) {
   if (body.empty()) return {};
   const std::string advice = attempt.guidance ? fmt::format("<p class=\"note\">{}.</p>\n", EscapeXml(Advice(*attempt.guidance))) : "";
   return fmt::format(
-      "<h2>Where it could be</h2>\n<p class=\"note\">What the last try to find the robot left open, the most probable first; it is outside "
-      "the "
-      "plan with {} %.</p>\n{}<div class=\"scroll\"><table><thead><tr><th></th><th class=\"t\">storey</th><th class=\"t\">room</th>"
-      "<th>x, y, m</th><th>heading, &deg;</th><th>probability, %</th><th>walls that agree</th><th>area explained, "
-      "%</th></tr></thead><tbody>\n"
-      "{}</tbody></table></div>\n",
+      "<h2>Where it could be</h2>\n<p class=\"note\">What the last try to find the robot left open, the most probable first; a place outside "
+      "of all that is planned has {} %.</p>\n{}"
+      "<p class=\"note\">If none can be right: another plan or storey? <code>plumb validate</code> looks at the plan, <code>plumb doctor</code> "
+      "at the recording.</p>\n"
+      "<div class=\"scroll\"><table><thead><tr><th></th><th class=\"t\">storey</th><th class=\"t\">room</th><th>x, y, m</th>"
+      "<th>heading, &deg;</th><th>probability, %</th><th>walls that agree</th><th>area explained, %</th></tr></thead><tbody>\n{}</tbody>"
+      "</table></div>\n",
       Percent(attempt.probability_outside), advice, body);
 }
 

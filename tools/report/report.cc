@@ -109,7 +109,9 @@ std::string Figures(const AGraph& plan, const Run& run, const std::vector<WallRo
     if (!has_walls) continue;
     (visited.contains(storey) ? out : others) += Figure(plan, storey, run, rows, limit_m);
   }
-  if (!others.empty()) out += fmt::format("<details><summary>Storeys that were not visited</summary>\n{}</details>\n", others);
+  if (!others.empty())
+    out += fmt::format("<details><summary>{}</summary>\n{}</details>\n",
+                       OpenTry(run) ? "Storeys without a place that is left open" : "Storeys that were not visited", others);
   return out;
 }
 

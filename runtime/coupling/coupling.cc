@@ -26,8 +26,8 @@ constexpr double kFrontPenalty_nats = 8;   // for taking a surface with a wall v
 constexpr double kInOpeningRatio = 0.6;    // of an observation's extent either way: it is of what fills the opening
 constexpr double kHalfExtentSigmas = 1.7;  // half the extent of evenly spread points
 constexpr double kMaxThicker_m = 0.10;     // no wall is built thicker than planned by more: one of its faces is the front of furniture
-constexpr double kSameNormal_cos = 0.999, kMinShared_m2 = 0.5, kMaxFlush_m = 0.2,
-                 kMinSharedRatio = 0.5;                             // of walls that one patch runs along
+// Of walls that one patch runs along.
+constexpr double kSameNormal_cos = 0.999, kMinShared_m2 = 0.5, kMaxFlush_m = 0.2, kMinSharedRatio = 0.5;
 constexpr double kSameDirection_rad = 0.052, kDirectionSigmas = 2;  // patches of one line are parallel to this
 constexpr double kStepPerMetre = 0.01;     // lines are compared at a distance: allow for their direction errors
 

@@ -77,8 +77,8 @@ struct Odometry::Impl {
   SurfelMap map;
   std::optional<PreparedScan> first;  // until the second scan tells how fast the first one moved
   bool started = false;
-  std::optional<LevelMotion>
-      level;  // if the first scan told which way is up; else z of the odometry's frame is the sensor's own axis, which may lie
+  // If the first scan told which way is up; else z of the odometry's frame is the sensor's own axis, which may lie.
+  std::optional<LevelMotion> level;
   int failures = 0;         // in a row: nothing says where the robot went meanwhile
   int misfits = 0;          // of these, scans with enough points: the map is not of this place
   EstimatedSweep last;

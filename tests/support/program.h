@@ -14,13 +14,6 @@
 
 namespace plumb::test {
 
-// Fails the test if there is no such file.
-inline nlohmann::json ReadJson(const std::filesystem::path& path) {
-  const auto text = ReadFileText(path.string());
-  EXPECT_TRUE(text) << text.error().message;
-  return text ? nlohmann::json::parse(*text) : nlohmann::json();
-}
-
 // A folder to run the program in, removed at the end unless a test failed, whose traces are worth a look.
 class ProgramFolder {
  public:
@@ -41,7 +34,12 @@ class ProgramFolder {
     const int status = std::system(command.c_str());
     return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   }
-  [[nodiscard]] nlohmann::json Json(const std::string& name) const { return ReadJson(path_ / name); }
+  // Fails the test if there is no such file.
+  [[nodiscard]] nlohmann::json Json(const std::string& name) const {
+    const auto text = ReadFileText((path_ / name).string());
+    EXPECT_TRUE(text) << text.error().message;
+    return text ? nlohmann::json::parse(*text) : nlohmann::json();
+  }
   [[nodiscard]] std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
 
  private:

@@ -15,7 +15,7 @@
 #include "tools/plumb/command.h"
 #include "tools/plumb/config.h"
 #include "tools/plumb/flag_names.h"
-#include "tools/plumb/match_rows.h"
+#include "tools/plumb/interrupt.h"
 #include "tools/plumb/replayer.h"
 #include "tools/plumb/start_hint_flags.h"
 #include "tools/plumb/updates.h"

@@ -1,3 +1,4 @@
+// Memory that the heap keeps after it was freed.
 #pragma once
 
 namespace plumb::compiler {

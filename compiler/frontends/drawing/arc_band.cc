@@ -7,7 +7,7 @@
 namespace plumb::compiler {
 namespace {
 
-constexpr double kStep_rad = 0.05;    // along the sides, ...
+constexpr double kStep_rad = 0.05;       // along the sides, ...
 constexpr double kMaxSagitta_m = 0.001;  // ... and of large circles so many more that a side is no farther off than this
 
 ArcBand BandOf(const Arc& arc, double half_m) {

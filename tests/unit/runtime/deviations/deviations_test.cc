@@ -138,6 +138,16 @@ TEST(AssessDeviations, WhatTheDataLeaveFarOffIsUnobservedHoweverUnlikelyBeforeha
   EXPECT_EQ(AssessDeviations(house, estimate).surfaces[9].status, SurfaceStatus::kUnobserved);
 }
 
+TEST(AssessDeviations, ATurnThatTheDataShowAndThePriorDoubtsIsNotAsPlanned) {
+  const AGraph house = test::MakeHouse();
+  JointResult estimate = EstimateOfEastWall(house, {}, Eigen::Vector2d(0.01 * 0.01, std::pow(0.1 * kDeg, 2)).asDiagonal(), 30);
+  estimate.walls[0].deviation.yaw_rad = estimate.walls[0].evidence.measured.y() = 0.9 * kDeg;
+  estimate.walls[0].p_deviated = 0.9;
+  EXPECT_EQ(AssessDeviations(house, estimate).surfaces[9].status, SurfaceStatus::kUnobserved);
+  estimate.walls[0].p_deviated = 0.99;
+  EXPECT_EQ(AssessDeviations(house, estimate).surfaces[9].status, SurfaceStatus::kDeviated);
+}
+
 TEST(DeviationsToJson, HasTheAgreedForm) {
   const AGraph house = test::MakeHouse();
   test::DriveOptions options = Drive(3);

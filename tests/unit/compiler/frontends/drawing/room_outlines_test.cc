@@ -3,17 +3,12 @@
 #include <gtest/gtest.h>
 
 #include "compiler/frontends/drawing/plane.h"
+#include "tests/unit/compiler/frontends/drawing/draw.h"
 
 namespace plumb::compiler {
 namespace {
 
-void AddBox(double x0, double y0, double x1, double y1, Drawing& drawing) {
-  DrawnPath path;
-  path.points = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
-  path.closed = true;
-  path.location.guid = std::to_string(drawing.paths.size());
-  drawing.paths.push_back(path);
-}
+using test::AddBox;
 
 void AddText(const std::string& text, double x, double y, Drawing& drawing) {
   DrawnText t;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "compiler/frontends/drawing/arc_band.h"
 #include "compiler/frontends/drawing/plane.h"
 
 namespace plumb::compiler {
@@ -106,6 +107,18 @@ TEST(WidenStrokes, LayersOfWallsTellBeforeThickness) {
   ASSERT_EQ(walls.size(), 1u);
   ExpectBox(walls[0], 0, -0.05, 5, 0.05);
   EXPECT_EQ(drawing.paths[1].role, LineRole::kAny);
+}
+
+TEST(BandsAlong, StayWithinAMillimetreOfTheArcHoweverLargeItIs) {
+  for (const double radius_m : {0.5, 4.0, 100.0, 300.0}) {
+    const Arc arc{{0, 0}, radius_m, 0.2, 0.3};
+    const std::vector<ArcBand> bands = BandsAlong(arc, 0.1, 0, 0);
+    ASSERT_EQ(bands.size(), 1u);
+    const std::vector<Eigen::Vector2d>& outline = bands[0].outline;
+    for (size_t i = 0; i + 1 < outline.size() / 2; ++i) {
+      EXPECT_NEAR((0.5 * (outline[i] + outline[i + 1])).norm(), radius_m - 0.1, 0.0011) << radius_m;
+    }
+  }
 }
 
 }  // namespace

@@ -4,15 +4,12 @@
 
 #include <numeric>
 
+#include "tests/unit/compiler/frontends/drawing/draw.h"
+
 namespace plumb::compiler {
 namespace {
 
-void AddBox(double x0, double y0, double x1, double y1, Drawing& drawing) {
-  DrawnPath path;
-  path.points = {{x0, y0}, {x1, y0}, {x1, y1}, {x0, y1}};
-  path.closed = true;
-  drawing.paths.push_back(path);
-}
+using test::AddBox;
 
 WallMass MassOf(const Drawing& drawing) {
   std::vector<uint32_t> all(drawing.paths.size());

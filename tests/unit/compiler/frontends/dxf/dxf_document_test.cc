@@ -62,6 +62,10 @@ TEST(DxfDocument, NumbersOfLinesMayBeWrittenInAnyWay) {
     EXPECT_EQ(d->entities[0].paths[0].points[1], Eigen::Vector2d(7, 8)) << x0;
     EXPECT_EQ(sink.all().size(), 1u) << x0;
   }
+  DiagnosticSink unended;
+  const auto without_end = Read("0\nSECTION\n2\nENTITIES\n0\nLINE\n8\nW\n10\n1\n20\n2\n0\nENDSEC\n0\nEOF\n", unended);
+  ASSERT_TRUE(without_end);
+  EXPECT_TRUE(without_end->entities.empty()) << "no line to the origin";
   DiagnosticSink sink;
   const auto too_large = Read(line("1e300"), sink);
   ASSERT_TRUE(too_large);

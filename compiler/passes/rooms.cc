@@ -211,12 +211,12 @@ class RoomFinder {
       Eigen::Vector2d place = door;
       for (const Ring& ring : rings) {
         for (size_t i = 0; i < ring.size(); ++i) {
-          const Eigen::Vector2d &a = ring[i], side = ring[(i + 1) % ring.size()] - a;
-          const Eigen::Vector2d foot = a + std::clamp(side.dot(door - a) / side.squaredNorm(), 0.0, 1.0) * side;
+          const Eigen::Vector2d &a = ring[i], &b = ring[(i + 1) % ring.size()];
+          const Eigen::Vector2d foot = NearestOnSegment(door, a, b);
           const double distance_m = (door - foot).norm();
           if (distance_m >= least_m) continue;
           least_m = distance_m;
-          place = foot + kBeforeDoor_m * Rot90Ccw(side.normalized());
+          place = foot + kBeforeDoor_m * Rot90Ccw((b - a).normalized());
         }
       }
       out.push_back(place);

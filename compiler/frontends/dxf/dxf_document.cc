@@ -77,20 +77,21 @@ bool IsNeeded(int code, const std::string& type) {
   return code < 300 && code != 5 && code != 6 && code != 48 && code != 100 && code != 102;
 }
 
+constexpr std::array<int, 4> kLineCodes = {10, 20, 11, 21};
+
 // A line whose four numbers are plain. dxflib takes most of the time of a large drawing for turning texts into numbers, and most of such a
 // drawing is lines.
 std::optional<DL_LineData> PlainLine(const Groups& groups) {
-  constexpr std::array<int, 4> kCodes = {10, 20, 11, 21};
   if (groups[0].value != "LINE") return std::nullopt;
-  std::array<std::optional<double>, kCodes.size()> values;
+  std::array<std::optional<double>, kLineCodes.size()> values;
   for (const DxfGroup& g : groups) {
-    const auto* code = std::find(kCodes.begin(), kCodes.end(), g.code);
-    if (code == kCodes.end()) continue;
+    const auto* code = std::find(kLineCodes.begin(), kLineCodes.end(), g.code);
+    if (code == kLineCodes.end()) continue;
     double value = 0;
     const char* end = g.value.data() + g.value.size();
     const auto [stop, error] = std::from_chars(g.value.data(), end, value);
     if (error != std::errc() || stop != end || !std::isfinite(value)) return std::nullopt;
-    values[static_cast<size_t>(code - kCodes.begin())] = value;
+    values[static_cast<size_t>(code - kLineCodes.begin())] = value;
   }
   if (!values[0] || !values[1] || !values[2] || !values[3]) return std::nullopt;
   return DL_LineData(*values[0], *values[1], 0, *values[2], *values[3], 0);
@@ -98,9 +99,8 @@ std::optional<DL_LineData> PlainLine(const Groups& groups) {
 
 // Does a line lack one of its four numbers, or have a text for it? dxflib would read 0. Blanks and decimal commas are let pass.
 bool LacksNumbers(const Groups& groups) {
-  constexpr std::array<int, 4> kCodes = {10, 20, 11, 21};
   if (groups[0].value != "LINE") return false;
-  return std::any_of(kCodes.begin(), kCodes.end(), [&](int code) {
+  return std::any_of(kLineCodes.begin(), kLineCodes.end(), [&](int code) {
     const auto group = std::find_if(groups.begin(), groups.end(), [&](const DxfGroup& g) { return g.code == code; });
     if (group == groups.end()) return true;
     std::string text = group->value;

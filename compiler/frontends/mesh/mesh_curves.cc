@@ -19,16 +19,52 @@ constexpr size_t kMinFacets = 4;
 
 double Cross(const Vector2d& a, const Vector2d& b) { return a.x() * b.y() - a.y() * b.x(); }
 
-// An end of a piece, as one comes out of it: 0 its start, 1 its end.
-struct PieceEnd {
-  size_t piece = 0;
-  int end = 0;
-};
+bool OverlapInHeight(const WallPiece& p, const WallPiece& q) { return std::min(p.z1_m, q.z1_m) > std::max(p.z0_m, q.z0_m); }
 
-struct Joint {
-  PieceEnd from, to;
-  Vector2d left, right;  // where the sides meet, seen along the way out of `from`
-  double turn_rad = 0, off_m = 0;
+// Of the line at offset c along d with that at offset k along e.
+Vector2d Crossing(const FaceDirection& d, double c_m, const FaceDirection& e, double k_m) {
+  const double s_m = (k_m - c_m * e.C(d.across)) / e.C(d.along);
+  return d.At(s_m, c_m);
+}
+
+// Out of one piece into the other, if they are of one thickness and their sides meet at these ends.
+class FacetJoiner {
+ public:
+  FacetJoiner(const std::vector<FaceDirection>& directions, const std::vector<WallPiece>& pieces)
+      : directions_(directions), pieces_(pieces) {}
+
+  std::optional<FacetJoint> Join(const PieceEnd& from, const PieceEnd& to) const {
+    const WallPiece &p = pieces_[from.piece], &q = pieces_[to.piece];
+    if (p.sheet || q.sheet || p.column || q.column || p.direction == q.direction) return std::nullopt;
+    if (!IsSameThickness(p, q) || !OverlapInHeight(p, q)) return std::nullopt;
+    const FaceDirection &d = directions_[p.direction], &e = directions_[q.direction];
+    const Vector2d out = (from.end == 1 ? 1 : -1) * d.along, in = (to.end == 0 ? 1 : -1) * e.along;
+    FacetJoint joint{from, to, {}, {}, std::atan2(Cross(out, in), out.dot(in)), 0};
+    if (std::abs(joint.turn_rad) > kMaxTurn_rad) return std::nullopt;
+    const double left_m = from.end == 1 ? p.c1_m : p.c0_m, right_m = from.end == 1 ? p.c0_m : p.c1_m;
+    if (std::abs(joint.turn_rad) >= kMinTurn_rad) {
+      joint.left = Crossing(d, left_m, e, to.end == 0 ? q.c1_m : q.c0_m);
+      joint.right = Crossing(d, right_m, e, to.end == 0 ? q.c0_m : q.c1_m);
+    } else {
+      if (!p.gap && !q.gap) return std::nullopt;  // walls in line
+      const double end_m = EndOf(from);
+      joint.left = d.At(end_m, left_m);
+      joint.right = d.At(end_m, right_m);
+    }
+    const double reach_m = kAtEnd_m + p.thickness_m() * std::tan(0.5 * std::abs(joint.turn_rad));
+    for (const Vector2d& corner : {joint.left, joint.right}) {
+      const double off_p = std::abs(d.S(corner) - EndOf(from)), off_q = std::abs(e.S(corner) - EndOf(to));
+      if (off_p > reach_m || off_q > reach_m || std::abs(e.C(corner) - 0.5 * (q.c0_m + q.c1_m)) > q.thickness_m()) return std::nullopt;
+      joint.off_m += off_p + off_q;
+    }
+    return joint;
+  }
+
+ private:
+  double EndOf(const PieceEnd& at) const { return at.end == 1 ? pieces_[at.piece].span.s1_m : pieces_[at.piece].span.s0_m; }
+
+  const std::vector<FaceDirection>& directions_;
+  const std::vector<WallPiece>& pieces_;
 };
 
 class CurveFinder {
@@ -44,88 +80,40 @@ class CurveFinder {
       const FaceDirection& d = directions_[p.direction];
       out.corners.push_back({d.At(p.span.s0_m, p.c0_m), d.At(p.span.s1_m, p.c0_m), d.At(p.span.s1_m, p.c1_m), d.At(p.span.s0_m, p.c1_m)});
     }
-    const std::vector<Joint> joints = Joints();
-    for (const Joint& j : joints) {
-      if (IsRound(j)) Unite(j.from.piece, j.to.piece);
+    const std::vector<FacetJoint> joints = FindFacetJoints(directions_, pieces_);
+    for (const FacetJoint& j : joints) {
+      if (IsRound(j) || pieces_[j.from.piece].gap || pieces_[j.to.piece].gap) Unite(j.from.piece, j.to.piece);
     }
-    std::vector<size_t> facets(pieces_.size(), 0);
-    for (size_t i = 0; i < pieces_.size(); ++i) ++facets[Root(i)];
-    for (size_t i = 0; i < pieces_.size(); ++i) out.first.push_back(facets[Root(i)] >= kMinFacets ? Root(i) : i);
+    FindCurved();
+    for (size_t i = 0; i < pieces_.size(); ++i) out.first.push_back(IsCurved(i) ? Root(i) : i);
     std::vector<std::array<bool, 2>> met(pieces_.size(), {false, false});
-    for (const Joint& j : joints) {
-      const bool of_curve = facets[Root(j.from.piece)] >= kMinFacets || facets[Root(j.to.piece)] >= kMinFacets;
-      if (!of_curve) continue;
+    for (const FacetJoint& j : joints) {
+      if (!IsCurved(j.from.piece) && !IsCurved(j.to.piece)) continue;
       Meet(j, out.corners);
       met[j.from.piece][static_cast<size_t>(j.from.end)] = met[j.to.piece][static_cast<size_t>(j.to.end)] = true;
     }
     for (size_t i = 0; i < pieces_.size(); ++i) {
       for (const int end : {0, 1}) {
-        if (facets[Root(i)] >= kMinFacets && !met[i][static_cast<size_t>(end)]) MeetFlank({i, end}, out.corners[i]);
+        if (IsCurved(i) && !met[i][static_cast<size_t>(end)]) MeetFlank({i, end}, out.corners[i]);
       }
     }
     return out;
   }
 
  private:
-  // Each end of a piece in one of them at most, the closest.
-  std::vector<Joint> Joints() const {
-    std::vector<Joint> found;
-    for (size_t i = 0; i < pieces_.size(); ++i) {
-      for (size_t j = i + 1; j < pieces_.size(); ++j) {
-        for (const int a : {0, 1}) {
-          for (const int b : {0, 1}) {
-            if (const std::optional<Joint> joint = Join({i, a}, {j, b})) found.push_back(*joint);
-          }
-        }
-      }
-    }
-    std::stable_sort(found.begin(), found.end(), [](const Joint& a, const Joint& b) { return a.off_m < b.off_m; });
-    std::vector<std::array<bool, 2>> taken(pieces_.size(), {false, false});
-    std::vector<Joint> out;
-    for (const Joint& j : found) {
-      bool &a = taken[j.from.piece][static_cast<size_t>(j.from.end)], &b = taken[j.to.piece][static_cast<size_t>(j.to.end)];
-      if (!a && !b) out.push_back(j);
-      a = b = a || b;
-    }
-    return out;
-  }
-
-  // Out of one piece into the other, if they are of one thickness and their sides meet at these ends.
-  std::optional<Joint> Join(const PieceEnd& from, const PieceEnd& to) const {
-    const WallPiece &p = pieces_[from.piece], &q = pieces_[to.piece];
-    const double thickness_m = p.thickness_m();
-    if (p.sheet || q.sheet || p.column || q.column || p.direction == q.direction) return std::nullopt;
-    if (std::abs(thickness_m - q.thickness_m()) > kThickness_m + kThicknessShare * thickness_m) return std::nullopt;
-    if (std::min(p.z1_m, q.z1_m) <= std::max(p.z0_m, q.z0_m)) return std::nullopt;
-    const FaceDirection &d = directions_[p.direction], &e = directions_[q.direction];
-    const Vector2d out = (from.end == 1 ? 1 : -1) * d.along, in = (to.end == 0 ? 1 : -1) * e.along;
-    const double turn = std::atan2(Cross(out, in), out.dot(in));
-    if (std::abs(turn) < kMinTurn_rad || std::abs(turn) > kMaxTurn_rad) return std::nullopt;
-    Joint joint{from, to, {}, {}, turn, 0};
-    joint.left = Crossing(d, from.end == 1 ? p.c1_m : p.c0_m, e, to.end == 0 ? q.c1_m : q.c0_m);
-    joint.right = Crossing(d, from.end == 1 ? p.c0_m : p.c1_m, e, to.end == 0 ? q.c0_m : q.c1_m);
-    const double reach_m = kAtEnd_m + thickness_m * std::tan(0.5 * std::abs(turn));
-    for (const Vector2d& corner : {joint.left, joint.right}) {
-      const double off_p = std::abs(d.S(corner) - (from.end == 1 ? p.span.s1_m : p.span.s0_m));
-      const double off_q = std::abs(e.S(corner) - (to.end == 1 ? q.span.s1_m : q.span.s0_m));
-      if (off_p > reach_m || off_q > reach_m) return std::nullopt;
-      joint.off_m += off_p + off_q;
-    }
-    return joint;
-  }
-
-  // Of the line at offset c along d with that at offset k along e.
-  static Vector2d Crossing(const FaceDirection& d, double c_m, const FaceDirection& e, double k_m) {
-    const double s_m = (k_m - c_m * e.C(d.across)) / e.C(d.along);
-    return d.At(s_m, c_m);
-  }
-
-  bool IsRound(const Joint& j) const {
+  bool IsRound(const FacetJoint& j) const {
     const double longest_m = std::max(pieces_[j.from.piece].length_m(), pieces_[j.to.piece].length_m());
     return 0.5 * longest_m * std::tan(0.25 * std::abs(j.turn_rad)) <= kSagitta_m;
   }
 
-  static void Meet(const Joint& j, std::vector<std::array<Vector2d, 4>>& corners) {
+  void FindCurved() {
+    std::vector<size_t> facets(pieces_.size(), 0);
+    for (size_t i = 0; i < pieces_.size(); ++i) facets[Root(i)] += pieces_[i].gap ? kMinFacets : 1;
+    for (const size_t n : facets) curved_.push_back(n >= kMinFacets);
+  }
+  bool IsCurved(size_t i) const { return curved_[Root(i)]; }
+
+  static void Meet(const FacetJoint& j, std::vector<std::array<Vector2d, 4>>& corners) {
     // Corners 0 and 3 are the start's, 1 and 2 the end's; 2 and 3 are on the left along the piece.
     std::array<Vector2d, 4>&p = corners[j.from.piece], &q = corners[j.to.piece];
     p[j.from.end == 1 ? 2 : 0] = j.left;
@@ -143,7 +131,7 @@ class CurveFinder {
     for (const WallPiece& q : pieces_) {
       const FaceDirection& e = directions_[q.direction];
       const double askew_rad = std::acos(std::min(1.0, std::abs(d.along.dot(e.across))));
-      if (&q == &p || askew_rad > kMaxTurn_rad || std::min(p.z1_m, q.z1_m) <= std::max(p.z0_m, q.z0_m)) continue;
+      if (&q == &p || askew_rad > kMaxTurn_rad || !OverlapInHeight(p, q)) continue;
       const double reach_m = kAtEnd_m + p.thickness_m() * std::tan(askew_rad);
       for (const double face_m : {q.c0_m, q.c1_m}) {
         const Vector2d low = Crossing(d, p.c0_m, e, face_m), high = Crossing(d, p.c1_m, e, face_m);
@@ -169,9 +157,37 @@ class CurveFinder {
   const std::vector<FaceDirection>& directions_;
   const std::vector<WallPiece>& pieces_;
   std::vector<size_t> parent_;
+  std::vector<bool> curved_;  // by root
 };
 
 }  // namespace
+
+bool IsSameThickness(const WallPiece& p, const WallPiece& q) {
+  return std::abs(p.thickness_m() - q.thickness_m()) <= kThickness_m + kThicknessShare * p.thickness_m();
+}
+
+std::vector<FacetJoint> FindFacetJoints(const std::vector<FaceDirection>& directions, const std::vector<WallPiece>& pieces) {
+  const FacetJoiner joiner(directions, pieces);
+  std::vector<FacetJoint> found;
+  for (size_t i = 0; i < pieces.size(); ++i) {
+    for (size_t j = i + 1; j < pieces.size(); ++j) {
+      for (const int a : {0, 1}) {
+        for (const int b : {0, 1}) {
+          if (const std::optional<FacetJoint> joint = joiner.Join({i, a}, {j, b})) found.push_back(*joint);
+        }
+      }
+    }
+  }
+  std::stable_sort(found.begin(), found.end(), [](const FacetJoint& a, const FacetJoint& b) { return a.off_m < b.off_m; });
+  std::vector<std::array<bool, 2>> taken(pieces.size(), {false, false});
+  std::vector<FacetJoint> out;
+  for (const FacetJoint& j : found) {
+    bool &a = taken[j.from.piece][static_cast<size_t>(j.from.end)], &b = taken[j.to.piece][static_cast<size_t>(j.to.end)];
+    if (!a && !b) out.push_back(j);
+    a = b = a || b;
+  }
+  return out;
+}
 
 WallCurves FindCurves(const std::vector<FaceDirection>& directions, const std::vector<WallPiece>& pieces) {
   return CurveFinder(directions, pieces).Run();

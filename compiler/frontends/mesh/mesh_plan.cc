@@ -44,7 +44,7 @@ class Planner {
 
   PlanIr Run() {
     ChooseWallObjects();
-    directions_ = FindDirections(wall_objects_);
+    face_directions_ = directions_ = FindDirections(wall_objects_);
     for (const StoreyRange& range : FindStoreys(wall_objects_, objects_)) {
       PlanStorey storey;
       storey.name = fmt::format("Level {}", plan_.storeys.size());
@@ -89,21 +89,22 @@ class Planner {
       stack.heights_m.push_back(0.5 * (breaks[k] + breaks[k + 1]));
       stack.segments.push_back(CutScene(wall_objects_, stack.heights_m.back()));
     }
-    const Facing facing = FindFacing(directions_, stack, options_);
+    const Facing facing = FindFacing(face_directions_, stack, options_);
     std::vector<uint32_t> group_of(wall_objects_.size(), kPool);
     if (wall_objects_.size() > 1) {
       for (uint32_t i = 0; i < group_of.size(); ++i) group_of[i] = i + 1;
+      std::vector<FaceDirection> directions = face_directions_;
       const auto alone =
-          FindWalls(directions_, WithoutSheets(FindBands(directions_, stack, group_of, facing, options_)), breaks, range, options_);
+          FindWalls(WithoutSheets(FindBands(face_directions_, stack, group_of, facing, options_)), breaks, range, options_, directions);
       std::set<uint32_t> able;
       for (const WallPiece& p : alone) {
-        if (p.closed_gaps == 0 && !p.parapet) able.insert(p.group);
+        if (p.closed_gaps == 0 && !p.parapet && !p.gap) able.insert(p.group);
       }
       for (uint32_t i = 0; i < group_of.size(); ++i) {
         if (!able.contains(i + 1)) group_of[i] = kPool;
       }
     }
-    return FindWalls(directions_, FindBands(directions_, stack, group_of, facing, options_), breaks, range, options_);
+    return FindWalls(FindBands(face_directions_, stack, group_of, facing, options_), breaks, range, options_, directions_);
   }
 
   static std::vector<Band> WithoutSheets(std::vector<Band> bands) {
@@ -111,7 +112,7 @@ class Planner {
     return bands;
   }
 
-  // Facets of a curve that are of one object are one wall.
+  // Facets of a curve that are of one object are one wall; those of a doorway have none and are of the wall beside it.
   void AddWalls() {
     std::map<std::string, size_t> total, count;
     std::vector<std::vector<uint32_t>> owners;
@@ -120,8 +121,8 @@ class Planner {
       owners.emplace_back();
       curves.push_back(FindCurves(directions_, storey.pieces));
       for (size_t p = 0; p < storey.pieces.size(); ++p) {
-        owners.back().push_back(OwnerOf(wall_objects_, storey, p));
         size_t& first = curves.back().first[p];
+        owners.back().push_back(storey.pieces[p].gap && first < p ? owners.back()[first] : OwnerOf(wall_objects_, storey, p));
         if (owners.back()[first] != owners.back()[p]) first = p;
         if (first == p) ++total[wall_objects_[owners.back().back()].name];
       }
@@ -278,7 +279,7 @@ class Planner {
   DiagnosticSink& sink_;
   std::vector<MeshObject> wall_objects_;
   std::vector<uint32_t> source_of_;  // in objects_, by wall object
-  std::vector<FaceDirection> directions_;
+  std::vector<FaceDirection> face_directions_, directions_;  // of the mesh's faces; these, then those of doorways in curves
   std::vector<StoreyWalls> storeys_;
   std::vector<std::vector<bool>> in_wall_;   // by object and triangle
   std::map<uint32_t, size_t> num_openings_;  // of walls, by element

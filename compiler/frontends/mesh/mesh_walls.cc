@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "compiler/frontends/mesh/mesh_curve_gaps.h"
 #include "compiler/frontends/mesh/mesh_facets.h"
 #include "compiler/frontends/mesh/mesh_wall_gaps.h"
 #include "compiler/frontends/mesh/mesh_wall_grid.h"
@@ -30,9 +31,9 @@ struct LooseColumns {
 
 class WallFinder {
  public:
-  WallFinder(const std::vector<FaceDirection>& directions, const std::vector<double>& breaks_m, const StoreyRange& range,
-             const MeshOptions& options)
-      : walls_(directions), breaks_m_(breaks_m), range_(range), options_(options) {}
+  WallFinder(const std::vector<double>& breaks_m, const StoreyRange& range, const MeshOptions& options,
+             std::vector<FaceDirection>& directions)
+      : directions_(directions), walls_(directions), breaks_m_(breaks_m), range_(range), options_(options) {}
 
   std::vector<WallPiece> Run(const std::vector<Band>& bands) {
     for (const Band& band : bands) {
@@ -46,6 +47,7 @@ class WallFinder {
     AddLooseRuns();
     AlignPiers();
     CloseGapsInLine(options_, walls_);
+    CloseGapsInCurves(options_, directions_, walls_.pieces);
     CloseGapsToFlanks(options_, walls_);
     walls_.DropContained();
     DropFilledVoids();
@@ -240,6 +242,7 @@ class WallFinder {
     }
   }
 
+  std::vector<FaceDirection>& directions_;
   WallSet walls_;
   const std::vector<double>& breaks_m_;
   const StoreyRange range_;
@@ -249,9 +252,9 @@ class WallFinder {
 
 }  // namespace
 
-std::vector<WallPiece> FindWalls(const std::vector<FaceDirection>& directions, const std::vector<Band>& bands,
-                                 const std::vector<double>& breaks_m, const StoreyRange& range, const MeshOptions& options) {
-  return WallFinder(directions, breaks_m, range, options).Run(bands);
+std::vector<WallPiece> FindWalls(const std::vector<Band>& bands, const std::vector<double>& breaks_m, const StoreyRange& range,
+                                 const MeshOptions& options, std::vector<FaceDirection>& directions) {
+  return WallFinder(breaks_m, range, options, directions).Run(bands);
 }
 
 }  // namespace plumb::compiler

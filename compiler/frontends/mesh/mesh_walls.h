@@ -24,6 +24,7 @@ struct WallPiece {
   Span span;
   uint32_t group = 0;
   bool sheet = false, parapet = false, column = false;
+  bool gap = false;        // nothing stands in it: a facet of a doorway from floor to ceiling in a curve
   size_t closed_gaps = 0;  // gaps with nothing above or below in it
   std::vector<WallVoid> voids;
   [[nodiscard]] double thickness_m() const { return c1_m - c0_m; }
@@ -38,8 +39,10 @@ struct StoreyRange {
   double floor_z_m = 0, top_z_m = 0;  // top: of what stands on the floor
 };
 
-// `breaks_m`: where the slices of the stack begin and end; one more than heights.
-[[nodiscard]] std::vector<WallPiece> FindWalls(const std::vector<FaceDirection>& directions, const std::vector<Band>& bands,
-                                               const std::vector<double>& breaks_m, const StoreyRange& range, const MeshOptions& options);
+// `breaks_m`: where the slices of the stack begin and end; one more than heights. Appends to `directions` those that only the facets of
+// doorways in curves have.
+[[nodiscard]] std::vector<WallPiece> FindWalls(const std::vector<Band>& bands, const std::vector<double>& breaks_m,
+                                               const StoreyRange& range, const MeshOptions& options,
+                                               std::vector<FaceDirection>& directions);
 
 }  // namespace plumb::compiler

@@ -2,12 +2,14 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cmath>
 #include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "compiler/frontends/mesh/mesh_scene.h"
+#include "compiler/geometry/sweep.h"
 
 namespace plumb::compiler::test {
 
@@ -82,6 +84,26 @@ inline void AddRingWithOpening(double inner_m, double thickness_m, double height
   }
   quad(0, inner_m, sill_m, 0, outer_m, sill_m, 0, outer_m, head_m, 0, inner_m, head_m);
   quad(open, outer_m, sill_m, open, inner_m, sill_m, open, inner_m, head_m, open, outer_m, head_m);
+  scene.objects.push_back(std::move(o));
+}
+
+// What stands from angle to angle of a ring wall as AddRing makes it, cut square to the circle at both ends.
+inline void AddRingPart(double inner_m, double thickness_m, double height_m, int sides, double from_rad, double to_rad, MeshScene& scene) {
+  const double step_rad = 2 * std::numbers::pi / sides;
+  std::vector<double> angles = {from_rad};
+  for (double k = std::floor(from_rad / step_rad + 1e-6) + 1; k * step_rad < to_rad - 1e-6; ++k) angles.push_back(k * step_rad);
+  angles.push_back(to_rad);
+  Ring outline;
+  const auto add = [&](double angle_rad, double corner_m) {
+    const double off_rad = angle_rad - step_rad * std::floor(angle_rad / step_rad + 1e-6) - 0.5 * step_rad;  // from its facet's middle
+    const double r_m = corner_m * std::cos(0.5 * step_rad) / std::cos(off_rad);
+    outline.emplace_back(r_m * std::cos(angle_rad), r_m * std::sin(angle_rad));
+  };
+  for (const double a : angles) add(a, inner_m + thickness_m);
+  for (auto a = angles.rbegin(); a != angles.rend(); ++a) add(*a, inner_m);
+  MeshObject o;
+  o.name = "ring";
+  o.solid = Extrude({outline}, {0, 0, height_m});
   scene.objects.push_back(std::move(o));
 }
 

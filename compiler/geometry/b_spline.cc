@@ -26,7 +26,7 @@ int StepsOver(const BSpline& spline, double low, double high, double tolerance_m
 
 }  // namespace
 
-Vector3d BSpline::At(double u) const {
+Vector4d BSpline::HomogeneousAt(double u) const {
   size_t span = degree;
   while (span + 1 < points.size() && u >= knots[span + 1]) ++span;
   std::vector<Vector4d> d(points.begin() + static_cast<std::ptrdiff_t>(span - degree),
@@ -38,7 +38,11 @@ Vector3d BSpline::At(double u) const {
       d[j] = (1 - t) * d[j - 1] + t * d[j];
     }
   }
-  const Vector4d& q = d[degree];
+  return d[degree];
+}
+
+Vector3d BSpline::At(double u) const {
+  const Vector4d q = HomogeneousAt(u);
   return q.w() != 0 ? Vector3d(q.head<3>() / q.w()) : Vector3d::Zero();
 }
 

@@ -19,6 +19,7 @@ struct BSpline {
   [[nodiscard]] double last() const { return knots.back(); }
   // De Boor's algorithm; zero where the weights cancel. O(degree^2).
   [[nodiscard]] Eigen::Vector3d At(double u) const;
+  [[nodiscard]] Eigen::Vector4d HomogeneousAt(double u) const;
   // From parameter `low` to `high` in the spans between knots, each in so many equal steps (64 at most) that chords keep within
   // `tolerance_m` of the curve. Ends early once there are over `max_points`.
   [[nodiscard]] Ring3 Sample(double low, double high, double tolerance_m, size_t max_points) const;

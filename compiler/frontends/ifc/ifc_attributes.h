@@ -60,6 +60,9 @@ inline constexpr size_t kDirectrix = 0, kDiskRadius = 1;
 inline constexpr size_t kBooleanOperator = 0, kFirstOperand = 1, kSecondOperand = 2, kCsgTree = 0;
 inline constexpr size_t kHalfSpaceSurface = 0, kHalfSpaceAgreement = 1, kBoundedPosition = 2, kBoundedBoundary = 3;
 inline constexpr size_t kSurfacePosition = 0, kCylinderSurfaceRadius = 1;
+inline constexpr size_t kSweptCurve = 0, kSweptSurfacePosition = 1, kExtrudedSurfaceDirection = 2, kRevolvedSurfaceAxis = 2;
+inline constexpr size_t kSurfaceDegreeU = 0, kSurfaceDegreeV = 1, kSurfacePoints = 2, kSurfaceMultiplicitiesU = 7,
+                        kSurfaceMultiplicitiesV = 8, kSurfaceKnotsU = 9, kSurfaceKnotsV = 10, kSurfaceWeights = 12;
 inline constexpr size_t kPrimitivePosition = 0, kBlockX = 1, kBlockY = 2, kBlockZ = 3, kCylinderHeight = 1, kCylinderRadius = 2,
                         kSphereRadius = 1;  // pyramids are measured as blocks, cones as cylinders
 inline constexpr size_t kBrepOuter = 0, kBrepVoids = 1, kModelShells = 0, kShellFaces = 0;
@@ -74,6 +77,7 @@ inline constexpr size_t kPointListCoordinates = 0;
 inline constexpr size_t kBoxCorner = 0, kBoxX = 1, kBoxY = 2, kBoxZ = 3;
 
 // Curves.
+inline constexpr size_t kCurve3D = 0;  // of curves on surfaces
 inline constexpr size_t kPolylinePoints = 0, kCompositeSegments = 0, kSegmentSameSense = 1, kSegmentCurve = 2;
 inline constexpr size_t kTrimBasis = 0, kTrim1 = 1, kTrim2 = 2, kTrimSense = 3, kTrimMaster = 4;
 inline constexpr size_t kConicPosition = 0, kCircleRadius = 1, kEllipseAxis1 = 1, kEllipseAxis2 = 2, kLinePoint = 0, kLineDirection = 1;

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "compiler/geometry/b_spline.h"
+#include "compiler/geometry/polyline.h"
 #include "compiler/geometry/sweep.h"
 
 namespace plumb::compiler {
@@ -26,6 +27,10 @@ bool IsConic(IfcType type) { return type == IfcType::kIfcCircle || type == IfcTy
 Vector2d Radii(const IfcModel& model, const IfcInstance& conic) {
   if (conic.type == IfcType::kIfcCircle) return Vector2d::Constant(model.Length(conic, attribute::kCircleRadius));
   return {model.Length(conic, attribute::kEllipseAxis1), model.Length(conic, attribute::kEllipseAxis2)};
+}
+
+bool IsCurveOnSurface(IfcType type) {
+  return type == IfcType::kIfcSurfaceCurve || type == IfcType::kIfcSeamCurve || type == IfcType::kIfcIntersectionCurve;
 }
 
 void Reverse(CurvePoints& curve) {
@@ -317,7 +322,9 @@ CurvePoints CurveReader::Spline(const IfcInstance& curve, const CurveTrim& a, co
   return out;
 }
 
-Ring3 CurveReader::ReadBetween(const IfcInstance& curve, const Vector3d& start, const Vector3d& end, bool same_sense) const {
+Ring3 CurveReader::ReadBetween(const IfcInstance& edge_curve, const Vector3d& start, const Vector3d& end, bool same_sense) const {
+  const bool on_surface = edge_curve && IsCurveOnSurface(edge_curve.type);
+  const IfcInstance curve = on_surface ? model_.Follow(edge_curve[attribute::kCurve3D]) : edge_curve;
   if (curve && IsConic(curve.type)) {
     const double from = AngleOnConic(curve, start);
     Ring3 points = Conic(curve, from, Sweep(from, AngleOnConic(curve, end), same_sense)).points;
@@ -326,14 +333,9 @@ Ring3 CurveReader::ReadBetween(const IfcInstance& curve, const Vector3d& start, 
       points.back() = end;
       return points;
     }
-  } else if (curve && (IsSpline(curve.type) || curve.type == IfcType::kIfcTrimmedCurve || curve.type == IfcType::kIfcPolyline)) {
+  } else if (curve && curve.type != IfcType::kIfcLine) {
     Ring3 points = Read(curve).points;
-    if (points.size() >= 2) {
-      if ((points.front() - start).norm() > (points.back() - start).norm()) std::reverse(points.begin(), points.end());
-      points.front() = start;
-      points.back() = end;
-      return points;
-    }
+    if (points.size() >= 2) return PartOfPolyline(std::move(points), start, end, same_sense);
   }
   return {start, end};
 }

@@ -40,8 +40,8 @@ class CurveReader {
   // The same without its repeated points and as a ring in the xy plane.
   [[nodiscard]] Ring2 ReadRing(const IfcInstance& curve, std::vector<Arc>* arcs) const;
 
-  // The curve from `start` to `end` as far as it is a conic: the edges of advanced faces. Straight for other curves.
-  [[nodiscard]] Ring3 ReadBetween(const IfcInstance& curve, const Eigen::Vector3d& start, const Eigen::Vector3d& end,
+  // The part of the curve between two points on it, from `start` to `end`: the edges of advanced faces. The whole curve where they are one.
+  [[nodiscard]] Ring3 ReadBetween(const IfcInstance& edge_curve, const Eigen::Vector3d& start, const Eigen::Vector3d& end,
                                   bool same_sense) const;
 
   [[nodiscard]] std::vector<Eigen::Vector3d> PointList(const IfcInstance& list) const;  // IfcCartesianPointList2D and 3D

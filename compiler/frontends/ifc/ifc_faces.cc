@@ -3,8 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
 #include <utility>
 
 #include "compiler/geometry/triangulate.h"
@@ -65,35 +63,23 @@ Ring3 FaceReader::EdgeLoop(const IfcInstance& loop) const {
   return ring;
 }
 
-// Unrolls the cylinder: triangles in (angle, height) connect points of like angle, so that they follow the surface.
-bool FaceReader::AppendCylinderFace(const IfcInstance& face, const IfcInstance& surface, const std::vector<Ring3>& rings,
-                                    Solid& solid) const {
-  const Eigen::Isometry3d T = placements_.AxisPlacement(surface[attribute::kSurfacePosition]);
-  const double radius_m = model_.Length(surface, attribute::kCylinderSurfaceRadius);
-  if (!(radius_m > 0)) return false;
-  std::vector<Ring2> flat;
-  double last_rad = 0;
-  for (const Ring3& ring : rings) {
-    Ring2 unrolled;
-    for (const Vector3d& p : ring) {
-      const Vector3d q = T.inverse() * p;
-      double angle = std::atan2(q.y(), q.x());
-      angle += 2 * std::numbers::pi * std::round((last_rad - angle) / (2 * std::numbers::pi));  // continuous along the ring
-      last_rad = angle;
-      unrolled.emplace_back(radius_m * angle, q.z());
-    }
-    flat.push_back(std::move(unrolled));
+// Triangles of the unrolled face connect points across the surface, not through it.
+bool FaceReader::AppendCurvedFace(const IfcInstance& surface, const std::vector<Ring3>& rings, Solid& solid) const {
+  const UnrolledFace flat = surfaces_.Unroll(surface, rings);
+  if (!flat.is_ruled) {
+    model_.Emit(DiagnosticKind::kSimplifiedGeometry, surface.index,
+                fmt::format("the curved surface {} is replaced by flat triangles between its edges", model_.Label(surface.index)));
   }
-  const Triangulation2 result = TriangulatePolygon(flat);
-  if (result.triangles.empty()) return false;
+  if (flat.rings.empty()) return false;
+  const Triangulation2 result = TriangulatePolygon(flat.rings);
+  size_t points = 0;
+  for (const Ring3& ring : rings) points += ring.size();
+  if (result.triangles.empty() || result.points.size() != points) return false;
   const int base = static_cast<int>(solid.vertices.size());
-  for (const Vector2d& p : result.points) {
-    const double angle = p.x() / radius_m;
-    solid.vertices.push_back(T * Vector3d(radius_m * std::cos(angle), radius_m * std::sin(angle), p.y()));
-  }
-  const bool outward = face[attribute::kFaceSameSense].Boolean().value_or(true);
+  for (const Ring3& ring : rings) solid.vertices.insert(solid.vertices.end(), ring.begin(), ring.end());
+  const bool turned = SignedArea(flat.rings[0]) < 0;
   for (const Eigen::Vector3i& t : result.triangles) {
-    solid.triangles.emplace_back(base + t[0], base + t[outward ? 1 : 2], base + t[outward ? 2 : 1]);
+    solid.triangles.emplace_back(base + t[0], base + t[turned ? 2 : 1], base + t[turned ? 1 : 2]);
   }
   return true;
 }
@@ -116,11 +102,7 @@ void FaceReader::AppendIfcFace(const IfcInstance& face, Solid& solid) const {
   if (rings.empty()) return;
   if (face.type == IfcType::kIfcAdvancedFace || face.type == IfcType::kIfcFaceSurface) {
     const IfcInstance surface = model_.Follow(face[attribute::kFaceSurface]);
-    if (surface && surface.type == IfcType::kIfcCylindricalSurface && AppendCylinderFace(face, surface, rings, solid)) return;
-    if (surface && surface.type != IfcType::kIfcPlane) {
-      model_.Emit(DiagnosticKind::kSimplifiedGeometry, surface.index,
-                  fmt::format("the curved surface {} is replaced by flat triangles between its edges", model_.Label(surface.index)));
-    }
+    if (surface && surface.type != IfcType::kIfcPlane && AppendCurvedFace(surface, rings, solid)) return;
   }
   AppendFace(rings, solid);
 }

@@ -15,6 +15,8 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr int kMaxDepth = 16;
+constexpr double kSamePoint_m = 1e-6;
+constexpr double kAlongStep = 0.9;  // cosine: an arc that goes on as the step at its end does
 
 Ring2 Rectangle(double x_m, double y_m) { return {{-x_m / 2, -y_m / 2}, {x_m / 2, -y_m / 2}, {x_m / 2, y_m / 2}, {-x_m / 2, y_m / 2}}; }
 
@@ -39,21 +41,43 @@ void Transform(const Affine3d& T, Profile& profile) {
   }
 }
 
-// A band of constant width along an open line, mitred at its bends.
-Ring2 Band(const Ring2& line, double thickness_m) {
+// Square to the line at one of its ends: exactly where an arc begins or ends there, else square to its first or last step.
+Vector2d NormalAtEnd(const Vector2d& end, const Vector2d& step, const std::vector<Arc>& arcs) {
+  const Vector2d normal = Vector2d(-step.y(), step.x()).normalized();
+  for (const Arc& arc : arcs) {
+    for (const double angle : {arc.start_rad, arc.start_rad + arc.sweep_rad}) {
+      const Vector2d radial(std::cos(angle), std::sin(angle));
+      if ((arc.center + arc.radius_m * radial - end).norm() < kSamePoint_m && std::abs(radial.dot(normal)) > kAlongStep)
+        return radial.dot(normal) > 0 ? radial : Vector2d(-radial);
+    }
+  }
+  return normal;
+}
+
+// A band of constant width along an open line with at least two points, mitred at its bends, and the arcs of its sides.
+Profile Band(const Ring2& line, const std::vector<Arc>& arcs, double thickness_m) {
   Ring2 left, right;
   const size_t n = line.size();
   for (size_t i = 0; i < n; ++i) {
-    const Vector2d in = i > 0 ? (line[i] - line[i - 1]).normalized() : (line[1] - line[0]).normalized();
+    const bool at_end = i == 0 || i + 1 == n;
+    const Vector2d in = (line[std::max<size_t>(i, 1)] - line[std::max<size_t>(i, 1) - 1]).normalized();
     const Vector2d out = i + 1 < n ? (line[i + 1] - line[i]).normalized() : in;
     const Vector2d n_in(-in.y(), in.x()), n_out(-out.y(), out.x());
     Vector2d miter = n_in + n_out;
     miter = miter.norm() > 0.1 ? Vector2d(miter / std::max(0.25, miter.squaredNorm() / 2)) : n_in;
+    if (at_end) miter = NormalAtEnd(line[i], in, arcs);
     left.push_back(line[i] + miter * thickness_m / 2);
     right.push_back(line[i] - miter * thickness_m / 2);
   }
   left.insert(left.end(), right.rbegin(), right.rend());
-  return left;
+  Profile out;
+  out.area.push_back(std::move(left));
+  for (const Arc& arc : arcs) {
+    for (const double offset_m : {-0.5 * thickness_m, 0.5 * thickness_m}) {
+      if (arc.radius_m + offset_m > 0) out.arcs.push_back({arc.center, arc.radius_m + offset_m, arc.start_rad, arc.sweep_rad});
+    }
+  }
+  return out;
 }
 
 }  // namespace
@@ -71,10 +95,10 @@ Profile ProfileReader::Read(const IfcInstance& profile, int depth) const {
     case IfcType::kIfcArbitraryClosedProfileDef:
     case IfcType::kIfcArbitraryProfileDefWithVoids: return Arbitrary(profile);
     case IfcType::kIfcCenterLineProfileDef: {
-      const Ring2 line = curves_.ReadRing(model_.Follow(profile[attribute::kProfileCurve]), nullptr);
+      std::vector<Arc> arcs;
+      const Ring2 line = curves_.ReadRing(model_.Follow(profile[attribute::kProfileCurve]), &arcs);
       const double thickness_m = model_.Length(profile, attribute::kCenterLineThickness);
-      if (line.size() >= 2 && thickness_m > 0) out.area.push_back(Band(line, thickness_m));
-      return out;
+      return line.size() >= 2 && thickness_m > 0 ? Band(line, arcs, thickness_m) : out;
     }
     case IfcType::kIfcCompositeProfileDef:
       for (const StepValue item : profile[attribute::kCompositeProfiles].Items()) {
@@ -126,7 +150,10 @@ Profile ProfileReader::Round(double x_m, double y_m, double hollow_m) const {
   };
   out.area.push_back(ring(x_m, y_m));
   if (x_m == y_m) out.arcs.push_back({Vector2d::Zero(), x_m, 0, 2 * std::numbers::pi});
-  if (hollow_m > 0 && hollow_m < std::min(x_m, y_m)) out.area.push_back(ring(hollow_m, hollow_m));
+  if (hollow_m > 0 && hollow_m < std::min(x_m, y_m)) {
+    out.area.push_back(ring(hollow_m, hollow_m));
+    out.arcs.push_back({Vector2d::Zero(), hollow_m, 0, 2 * std::numbers::pi});
+  }
   return out;
 }
 

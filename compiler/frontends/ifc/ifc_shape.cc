@@ -21,7 +21,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr int kMaxDepth = 300;
-constexpr int kDiskSides = 8;
+constexpr int kMinDiskSides = 8;
 
 size_t CountTriangles(const ShapeParts& parts) {
   size_t n = 0;
@@ -253,7 +253,8 @@ ShapeParts ShapeReader::Revolved(const IfcInstance& item) {
 
 ShapeParts ShapeReader::Disk(const IfcInstance& item) {
   const CurvePoints path = curves_.Read(model_.Follow(item[attribute::kDirectrix]));
-  return OnePart(SweepDisk(path.points, model_.Length(item, attribute::kDiskRadius), kDiskSides));
+  const double radius_m = model_.Length(item, attribute::kDiskRadius);
+  return OnePart(SweepDisk(path.points, radius_m, ArcSegments(radius_m, 2 * std::numbers::pi, options_.chord_tolerance_m, kMinDiskSides)));
 }
 
 ShapeParts ShapeReader::Primitive(const IfcInstance& item) {

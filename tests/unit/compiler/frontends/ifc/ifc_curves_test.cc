@@ -112,6 +112,32 @@ TEST_F(CurveReaderTest, TrimmedSplineIsThePartBetweenItsParameters) {
   EXPECT_TRUE(diagnostics_.all().empty());
 }
 
+// A polyline around a square, and a parabola from (0, 0) to (2, 0).
+TEST_F(CurveReaderTest, AnEdgeIsThePartOfItsCurveBetweenItsVertices) {
+  Open(
+      "#10=IFCPOLYLINE((#11,#12,#13,#14,#11));\n#11=IFCCARTESIANPOINT((0.,0.));\n#12=IFCCARTESIANPOINT((2.,0.));\n"
+      "#13=IFCCARTESIANPOINT((2.,2.));\n#14=IFCCARTESIANPOINT((0.,2.));\n"
+      "#20=IFCBSPLINECURVEWITHKNOTS(2,(#11,#21,#12),.UNSPECIFIED.,.F.,.F.,(3,3),(0.,1.),.UNSPECIFIED.);\n#21=IFCCARTESIANPOINT((1.,2.));\n"
+      "#30=IFCLINE(#11,$);\n#31=IFCSEAMCURVE(#10,(#32,#32),.CURVE3D.);\n#32=IFCPCURVE($,$);");
+  const auto length = [](const Ring3& line) {
+    double sum = 0;
+    for (size_t i = 1; i < line.size(); ++i) sum += (line[i] - line[i - 1]).norm();
+    return sum;
+  };
+  const IfcInstance square = Get(10), parabola = Get(20);
+  EXPECT_NEAR(length(curves_->ReadBetween(square, {1, 0, 0}, {2, 1, 0}, true)), 2, 1e-12);
+  EXPECT_NEAR(length(curves_->ReadBetween(square, {1, 0, 0}, {2, 1, 0}, false)), 6, 1e-12);
+  EXPECT_NEAR(length(curves_->ReadBetween(square, {2, 1, 0}, {1, 0, 0}, true)), 6, 1e-12);
+  EXPECT_NEAR(length(curves_->ReadBetween(square, {1, 0, 0}, {1, 0, 0}, true)), 8, 1e-12);
+  const Ring3 part = curves_->ReadBetween(parabola, {1.5, 0.75, 0}, {0.5, 0.75, 0}, true);
+  EXPECT_TRUE(part.front().isApprox(Vector3d(1.5, 0.75, 0)));
+  EXPECT_TRUE(part.back().isApprox(Vector3d(0.5, 0.75, 0)));
+  for (const Vector3d& p : part) EXPECT_NEAR(p.y(), p.x() * (2 - p.x()), 1e-9);
+  EXPECT_NEAR(length(part), 1.148, 0.002);
+  EXPECT_NEAR(length(curves_->ReadBetween(Get(31), {1, 0, 0}, {2, 1, 0}, true)), 2, 1e-12);
+  EXPECT_EQ(curves_->ReadBetween(Get(30), {0, 0, 0}, {1, 0, 0}, true).size(), 2u);
+}
+
 TEST_F(CurveReaderTest, CyclesAndUnknownCurvesAreDiagnostics) {
   Open("#10=IFCCOMPOSITECURVE((#11),.F.);\n#11=IFCCOMPOSITECURVESEGMENT(.CONTINUOUS.,.T.,#10);\n#12=IFCPCURVE($,$);");
   EXPECT_TRUE(curves_->Read(Get(10)).points.empty());

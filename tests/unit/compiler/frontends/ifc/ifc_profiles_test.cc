@@ -50,6 +50,23 @@ TEST_F(ProfileReaderTest, AreasOfParameterizedProfiles) {
   }
 }
 
+TEST_F(ProfileReaderTest, ABandAlongAnArcEndsSquareToItAndHasItsArcs) {
+  Open(
+      "#10=IFCCENTERLINEPROFILEDEF(.CURVE.,$,#11,0.2);\n#11=IFCTRIMMEDCURVE(#12,(IFCPARAMETERVALUE(0.)),(IFCPARAMETERVALUE(3.14159265358979)),"
+      ".T.,.PARAMETER.);\n#12=IFCCIRCLE(#13,4.1);\n#13=IFCAXIS2PLACEMENT2D(#14,$);\n#14=IFCCARTESIANPOINT((0.,0.));");
+  const Profile profile = profiles_->Read(Get(10));
+  ASSERT_EQ(profile.area.size(), 1u);
+  double least_m = 1;
+  for (const Eigen::Vector2d& p : profile.area[0]) {
+    least_m = std::min(least_m, p.y());
+    EXPECT_NEAR(std::abs(p.norm() - 4.1), 0.1, 1e-4);
+  }
+  EXPECT_NEAR(least_m, 0, 1e-9);
+  ASSERT_EQ(profile.arcs.size(), 2u);
+  EXPECT_NEAR(profile.arcs[0].radius_m, 4, 1e-12);
+  EXPECT_NEAR(profile.arcs[1].radius_m, 4.2, 1e-12);
+}
+
 TEST_F(ProfileReaderTest, PositionMovesAndTurns) {
   Open(
       "#10=IFCRECTANGLEPROFILEDEF(.AREA.,$,#20,4.,2.);\n#20=IFCAXIS2PLACEMENT2D(#21,#22);\n#21=IFCCARTESIANPOINT((3.,4.));\n#22="

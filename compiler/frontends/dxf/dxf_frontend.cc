@@ -4,12 +4,15 @@
 
 #include <array>
 
+#include "compiler/frontends/drawing/arc_steps.h"
 #include "compiler/frontends/drawing/units.h"
 #include "compiler/frontends/dxf/dxf_document.h"
 #include "compiler/frontends/dxf/dxf_unfold.h"
 
 namespace plumb::compiler {
 namespace {
+
+constexpr double kSagitta_m = 0.001;  // of the steps along arcs
 
 // $INSUNITS by number; others are no units that buildings are drawn in.
 constexpr std::array<const char*, 15> kInsunits = {"", "in", "ft", "", "mm", "cm", "m", "km", "", "", "yd", "", "", "", "dm"};
@@ -59,6 +62,7 @@ class Frontend {
       }
     }
     ScaleDrawing(metres, drawing);
+    RefineArcSteps(kSagitta_m, drawing);
   }
 
   static const char* Measurement(const DxfDocument& document) {

@@ -6,7 +6,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
+#include <numbers>
 #include <vector>
 
 #include "compiler/compile.h"
@@ -126,6 +128,35 @@ TEST_F(DxfPlans, CurvedWallsBoundTheirRoom) {
   const AGraph g = GraphOf(dxf);
   ASSERT_EQ(g.rooms.size(), 1u);
   EXPECT_NEAR(g.rooms[0].area_m2, 0.5 * 3.14159265 * 9, 0.06);
+}
+
+// Whatever the unit, which is known only once the arcs are read: a wall of two arcs about (0, -100), its inner face 100 m from there.
+TEST_F(DxfPlans, DoubleLinesOfALargeRadiusAreTwoArcs) {
+  for (const double k : {1.0, 1000.0}) {
+    DxfText dxf;
+    dxf.Header("$INSUNITS", 70, k == 1 ? "6" : "4");
+    const auto arc = [&](double radius_m, double half_m) {
+      const double half_deg = std::asin(half_m / radius_m) * 180 / std::numbers::pi;
+      dxf.Entity("ARC", "WALL", {{10, "0"}, {20, fmt::format("{}", -100 * k)}, {40, fmt::format("{}", radius_m * k)}, {50, fmt::format("{}", 90 - half_deg)},
+                                 {51, fmt::format("{}", 90 + half_deg)}});
+      return std::sqrt(radius_m * radius_m - half_m * half_m) - 100;  // its ends' y
+    };
+    for (const double offset_m : {0.0, 0.3}) {
+      const double x = 10 + offset_m, y = arc(100 + offset_m, x), low = -8 - offset_m;
+      dxf.Line("WALL", k * x, k * y, k * x, k * low).Line("WALL", -k * x, k * y, -k * x, k * low).Line("WALL", k * x, k * low, -k * x, k * low);
+    }
+    const AGraph g = GraphOf(dxf);
+    ASSERT_EQ(g.rooms.size(), 1u);
+    EXPECT_EQ(g.surfaces.size(), 12u);
+    std::vector<double> radii_m;
+    for (const Surface& s : g.surfaces) {
+      if (s.arc) radii_m.push_back(s.arc->radius_m);
+    }
+    std::sort(radii_m.begin(), radii_m.end());
+    ASSERT_EQ(radii_m.size(), 2u);
+    EXPECT_NEAR(radii_m[0], 100, 0.001);
+    EXPECT_NEAR(radii_m[1], 100.3, 0.001);
+  }
 }
 
 TEST_F(DxfPlans, HatchedWallsAreWallsHoweverThick) {

@@ -4,12 +4,12 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
-#include <array>
-#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <utility>
 
+#include "compiler/frontends/svg/svg_names.h"
+#include "compiler/frontends/svg/svg_shapes.h"
 #include "compiler/frontends/svg/svg_style.h"
 #include "compiler/frontends/svg/svg_values.h"
 #include "compiler/frontends/xml/xml.h"
@@ -27,53 +27,9 @@ constexpr double kMiddle = 0.35;       // of capital letters above the base line
 constexpr double kMaxCoordinate = 1e9;
 constexpr std::string_view kLayerLabel = "inkscape:label";
 
-std::string_view AttributeOf(const XMLElement& e, const char* name) {
-  const char* value = e.Attribute(name);
-  return value == nullptr ? std::string_view() : std::string_view(value);
-}
-
 bool IsOneOf(std::string_view name, std::initializer_list<std::string_view> names) { return std::find(names.begin(), names.end(), name) != names.end(); }
 
-// `_x5F_` is how Illustrator writes `_` and whatever else an id must not have.
-std::string Unescaped(std::string_view id) {
-  std::string out;
-  for (size_t i = 0; i < id.size(); ++i) {
-    const size_t end = id.substr(i).starts_with("_x") ? id.find('_', i + 1) : std::string_view::npos;
-    uint32_t code = 0;
-    bool hex = end != std::string_view::npos && end > i + 2 && end - i <= 6;
-    for (size_t k = i + 2; hex && k < end; ++k) {
-      const auto c = static_cast<unsigned char>(id[k]);
-      hex = std::isxdigit(c) != 0;
-      code = 16 * code + static_cast<uint32_t>(std::isdigit(c) != 0 ? c - '0' : (c | 32) - 'a' + 10);
-    }
-    if (!hex || code >= 0x80) {
-      out += id[i];
-      continue;
-    }
-    out += static_cast<char>(code);
-    i = end;
-  }
-  return out;
-}
-
 bool IsAscii(char c) { return static_cast<unsigned char>(c) < 0x80; }
-
-// "path4109", "g12-3": a drawing program's own numbering.
-bool IsNumbered(std::string_view id) {
-  const size_t letters = id.find_first_of("0123456789-");
-  if (letters == std::string_view::npos || id.find_first_not_of("0123456789-", letters) != std::string_view::npos) return false;
-  return IsOneOf(id.substr(0, letters), {"g", "path", "rect", "line", "polyline", "polygon", "circle", "ellipse", "text", "tspan", "use", "svg", "symbol", "image", "layer"});
-}
-
-std::vector<std::string> Words(std::string_view text) {
-  std::vector<std::string> out;
-  for (size_t at = text.find_first_not_of(" \t\r\n"); at != std::string_view::npos; at = text.find_first_not_of(" \t\r\n", at)) {
-    const size_t end = std::min(text.find_first_of(" \t\r\n", at), text.size());
-    out.emplace_back(text.substr(at, end - at));
-    at = end;
-  }
-  return out;
-}
 
 struct Place {
   Affine2d T = Affine2d::Identity();  // from user units here to those of the document, y up
@@ -84,26 +40,6 @@ struct Place {
   Eigen::AlignedBox2d clip = Eigen::AlignedBox2d(Vector2d::Constant(-2 * kMaxCoordinate), Vector2d::Constant(2 * kMaxCoordinate));
   int uses = 0;
 };
-
-// The part of a straight line within `box`; what is not straight stays whole as long as some of it may be within. False: nothing is.
-bool Clip(const Eigen::AlignedBox2d& box, SvgOutline& outline) {
-  Eigen::AlignedBox2d own;
-  for (const Vector2d& p : outline.points) own.extend(p);
-  if (box.contains(own)) return true;
-  if (!box.intersects(own)) return false;
-  if (outline.points.size() != 2) return true;
-  const Vector2d a = outline.points[0], d = outline.points[1] - a;
-  double from = 0, to = 1;
-  for (int k = 0; k < 2; ++k) {
-    if (d[k] == 0) continue;
-    const auto [lo, hi] = std::minmax({(box.min()[k] - a[k]) / d[k], (box.max()[k] - a[k]) / d[k]});
-    from = std::max(from, lo);
-    to = std::min(to, hi);
-  }
-  if (from >= to) return false;
-  outline.points = {a + from * d, a + to * d};
-  return true;
-}
 
 class Reader {
  public:
@@ -126,18 +62,18 @@ class Reader {
  private:
   // User units are those of the viewBox: the size only tells how long they are on paper.
   Vector2d RootSize(const XMLElement& root) {
-    const auto box = ParseSvgViewBox(AttributeOf(root, "viewBox"));
-    const std::string_view width = AttributeOf(root, "width");
+    const auto box = ParseSvgViewBox(SvgAttribute(root, "viewBox"));
+    const std::string_view width = SvgAttribute(root, "width");
     if (const auto width_m = SvgPhysicalLength_m(width); width_m && *width_m > 0) {
       const double units = box ? box->width : SvgLength(width, 0).value_or(0);
       if (units > 0) out_.unit_on_paper_m = *width_m / units;
     }
     if (box) return {box->width, box->height};
-    return {SvgLength(width, 0).value_or(0), SvgLength(AttributeOf(root, "height"), 0).value_or(0)};
+    return {SvgLength(width, 0).value_or(0), SvgLength(SvgAttribute(root, "height"), 0).value_or(0)};
   }
 
   void Collect(const XMLElement& e) {
-    if (const std::string_view id = AttributeOf(e, "id"); !id.empty()) by_id_.emplace(id, &e);
+    if (const std::string_view id = SvgAttribute(e, "id"); !id.empty()) by_id_.emplace(id, &e);
     if (LocalName(e) == "style") {
       for (const auto* n = e.FirstChild(); n != nullptr; n = n->NextSibling()) {
         if (n->ToText() != nullptr) sheet_.Add(n->Value());
@@ -148,21 +84,17 @@ class Reader {
 
   // False: the element and what it contains are not displayed.
   bool Inherit(const XMLElement& e, Place& place) {
-    const std::vector<std::string> classes = Words(AttributeOf(e, "class"));
-    const std::string_view id = AttributeOf(e, "id");
+    const std::vector<std::string> classes = SvgWords(SvgAttribute(e, "class"));
+    const std::string_view id = SvgAttribute(e, "id");
     bool shown = true;
     for (const auto* a = e.FirstAttribute(); a != nullptr; a = a->Next()) shown &= ApplySvgDeclaration(a->Name(), a->Value(), place.style);
     for (const SvgDeclaration* d : sheet_.For(LocalName(e), classes, id)) shown &= ApplySvgDeclaration(d->property, d->value, place.style);
-    for (const SvgDeclaration& d : ParseSvgDeclarations(AttributeOf(e, "style"))) shown &= ApplySvgDeclaration(d.property, d.value, place.style);
+    for (const SvgDeclaration& d : ParseSvgDeclarations(SvgAttribute(e, "style"))) shown &= ApplySvgDeclaration(d.property, d.value, place.style);
     if (!id.empty()) place.id = id;
     SvgNode node;
     node.parent = place.node;
-    const std::string_view label = AttributeOf(e, kLayerLabel.data()), data_name = AttributeOf(e, "data-name");
-    if (!label.empty()) node.names.emplace_back(label);
-    if (!data_name.empty()) node.names.emplace_back(data_name);
-    node.names.insert(node.names.end(), classes.begin(), classes.end());
-    if (!id.empty() && !IsNumbered(id)) node.names.push_back(Unescaped(id));
-    if (!shown && AttributeOf(e, "inkscape:groupmode") == "layer") out_.hidden_layers.insert(node.names.empty() ? std::string(id) : node.names.front());
+    node.names = SvgNames(SvgAttribute(e, kLayerLabel.data()), SvgAttribute(e, "data-name"), classes, id);
+    if (!shown && SvgAttribute(e, "inkscape:groupmode") == "layer") out_.hidden_layers.insert(node.names.empty() ? std::string(id) : node.names.front());
     if (node.names.empty()) return shown;
     place.node = static_cast<uint32_t>(out_.nodes.size());
     out_.nodes.push_back(std::move(node));
@@ -178,8 +110,8 @@ class Reader {
     const std::string_view kind = LocalName(e);
     if (full_ || !IsOneOf(kind, {"g", "a", "switch", "svg", "use", "path", "rect", "circle", "ellipse", "line", "polyline", "polygon", "text", "image", "foreignObject"}))
       return;
-    if (!AttributeOf(e, "requiredExtensions").empty() || !Inherit(e, place)) return;
-    if (const std::string_view transform = AttributeOf(e, "transform"); !transform.empty()) {
+    if (!SvgAttribute(e, "requiredExtensions").empty() || !Inherit(e, place)) return;
+    if (const std::string_view transform = SvgAttribute(e, "transform"); !transform.empty()) {
       const auto T = SvgTransform(transform);
       if (!T) return Bad(e, "its transform is none");
       place.T = place.T * *T;
@@ -198,14 +130,14 @@ class Reader {
 
   // To the box around its clip path, which is what drawing programs cut patterns with.
   void NarrowClip(const XMLElement& e, Place& place) {
-    std::string_view reference = AttributeOf(e, "clip-path");
+    std::string_view reference = SvgAttribute(e, "clip-path");
     if (!reference.starts_with("url(#") || !reference.ends_with(")")) return;
     const auto found = by_id_.find(reference.substr(5, reference.size() - 6));
-    if (found == by_id_.end() || AttributeOf(*found->second, "clipPathUnits") == "objectBoundingBox") return;
-    const Affine2d T = place.T * SvgTransform(AttributeOf(*found->second, "transform")).value_or(Affine2d::Identity());
+    if (found == by_id_.end() || SvgAttribute(*found->second, "clipPathUnits") == "objectBoundingBox") return;
+    const Affine2d T = place.T * SvgTransform(SvgAttribute(*found->second, "transform")).value_or(Affine2d::Identity());
     Eigen::AlignedBox2d box;
     for (const XMLElement* c = found->second->FirstChildElement(); c != nullptr; c = c->NextSiblingElement()) {
-      const Affine2d T_child = T * SvgTransform(AttributeOf(*c, "transform")).value_or(Affine2d::Identity());
+      const Affine2d T_child = T * SvgTransform(SvgAttribute(*c, "transform")).value_or(Affine2d::Identity());
       for (const SvgOutline& outline : OutlinesOf(*c, LocalName(*c), place)) {
         for (const Vector2d& p : outline.points) box.extend(T_child * p);
       }
@@ -213,26 +145,22 @@ class Reader {
     if (!box.isEmpty()) place.clip = place.clip.intersection(box);
   }
 
-  double LengthOf(const XMLElement& e, const char* name, double whole, double otherwise = 0) const {
-    return SvgLength(AttributeOf(e, name), whole).value_or(otherwise);
-  }
-
   // Of a nested <svg>, or of a <symbol> where `use` places it.
   void VisitViewport(const XMLElement& content, const XMLElement& use, Place place) {
-    const auto box = ParseSvgViewBox(AttributeOf(content, "viewBox"));
+    const auto box = ParseSvgViewBox(SvgAttribute(content, "viewBox"));
     const auto size = [&](const char* name, double whole) {
-      return LengthOf(use, name, whole, LengthOf(content, name, whole, whole));
+      return SvgLengthOf(use, name, whole, SvgLengthOf(content, name, whole, whole));
     };
     const Vector2d viewport(size("width", place.viewport.x()), size("height", place.viewport.y()));
-    if (&content == &use) place.T = place.T * Eigen::Translation2d(LengthOf(use, "x", place.viewport.x()), LengthOf(use, "y", place.viewport.y()));
+    if (&content == &use) place.T = place.T * Eigen::Translation2d(SvgLengthOf(use, "x", place.viewport.x()), SvgLengthOf(use, "y", place.viewport.y()));
     place.viewport = box ? Vector2d(box->width, box->height) : viewport;
-    if (box && viewport.minCoeff() > 0) place.T = place.T * SvgViewport(*box, viewport.x(), viewport.y(), AttributeOf(content, "preserveAspectRatio"));
+    if (box && viewport.minCoeff() > 0) place.T = place.T * SvgViewport(*box, viewport.x(), viewport.y(), SvgAttribute(content, "preserveAspectRatio"));
     VisitChildren(content, place);
   }
 
   void VisitUse(const XMLElement& use, Place place) {
-    std::string_view href = AttributeOf(use, "href");
-    if (href.empty()) href = AttributeOf(use, "xlink:href");
+    std::string_view href = SvgAttribute(use, "href");
+    if (href.empty()) href = SvgAttribute(use, "xlink:href");
     const auto found = href.starts_with('#') ? by_id_.find(href.substr(1)) : by_id_.end();
     const auto unresolved = [&](const char* why) {
       sink_.Emit(DiagnosticKind::kUseUnresolved, LocationOf(use, place), fmt::format("`{}` {}; it is left out there", href, why));
@@ -242,7 +170,7 @@ class Reader {
     if (std::find(open_.begin(), open_.end(), &target) != open_.end()) return unresolved("uses itself");
     if (place.uses >= options_.max_depth) return unresolved("is used by what is used, too many times over");
     ++place.uses;
-    place.T = place.T * Eigen::Translation2d(LengthOf(use, "x", place.viewport.x()), LengthOf(use, "y", place.viewport.y()));
+    place.T = place.T * Eigen::Translation2d(SvgLengthOf(use, "x", place.viewport.x()), SvgLengthOf(use, "y", place.viewport.y()));
     open_.push_back(&target);
     if (LocalName(target) == "symbol" || LocalName(target) == "svg") {
       if (Inherit(target, place)) VisitViewport(target, use, place);
@@ -265,41 +193,18 @@ class Reader {
     SourceLocation where;
     where.line = static_cast<uint32_t>(std::max(0, e.GetLineNum()));
     where.type = std::string(LocalName(e));
-    where.guid = std::string(AttributeOf(e, "id"));
+    where.guid = std::string(SvgAttribute(e, "id"));
     sink_.Emit(DiagnosticKind::kXmlBadValue, where, fmt::format("<{}> is left out: {}", LocalName(e), why));
   }
 
   std::vector<SvgOutline> OutlinesOf(const XMLElement& e, std::string_view kind, const Place& place) {
-    const double w = place.viewport.x(), h = place.viewport.y(), diagonal = std::sqrt(0.5) * place.viewport.norm();
-    if (kind == "line") return {{{{LengthOf(e, "x1", w), LengthOf(e, "y1", h)}, {LengthOf(e, "x2", w), LengthOf(e, "y2", h)}}, false}};
-    if (kind == "circle") {
-      const double r = LengthOf(e, "r", diagonal);
-      return r > 0 ? std::vector{SvgEllipse(LengthOf(e, "cx", w), LengthOf(e, "cy", h), r, r)} : std::vector<SvgOutline>();
+    bool faulty = false;
+    std::vector<SvgOutline> out = SvgOutlinesOf(e, kind, place.viewport, options_.max_points - std::min(points_, options_.max_points), faulty);
+    if (faulty) {
+      sink_.Emit(DiagnosticKind::kXmlBadValue, LocationOf(e, place),
+                 fmt::format("<{}>: its path data has a fault; it is read up to there", LocalName(e)));
     }
-    if (kind == "ellipse") {
-      const double rx = LengthOf(e, "rx", w), ry = LengthOf(e, "ry", h);
-      return rx > 0 && ry > 0 ? std::vector{SvgEllipse(LengthOf(e, "cx", w), LengthOf(e, "cy", h), rx, ry)} : std::vector<SvgOutline>();
-    }
-    if (kind == "rect") {
-      const double width = LengthOf(e, "width", w), height = LengthOf(e, "height", h), rx = LengthOf(e, "rx", w, LengthOf(e, "ry", h));
-      if (!(width > 0 && height > 0)) return {};
-      return {SvgRect(LengthOf(e, "x", w), LengthOf(e, "y", h), width, height, rx, LengthOf(e, "ry", h, rx))};
-    }
-    if (kind == "path") {
-      SvgPathData path = ParseSvgPath(AttributeOf(e, "d"), options_.max_points - std::min(points_, options_.max_points));
-      if (path.faulty) Emit(e, place, "its path data has a fault; it is read up to there");
-      return std::move(path.outlines);
-    }
-    const std::vector<double> numbers = SvgNumbers(AttributeOf(e, "points"));
-    SvgOutline out;
-    for (size_t i = 0; i + 1 < numbers.size(); i += 2) out.points.emplace_back(numbers[i], numbers[i + 1]);
-    out.closed = kind == "polygon" && out.points.size() > 2;
-    if (out.points.size() > 2 && out.points.front() == out.points.back()) out.points.pop_back(), out.closed = true;
-    return out.points.size() > 1 ? std::vector{std::move(out)} : std::vector<SvgOutline>();
-  }
-
-  void Emit(const XMLElement& e, const Place& place, const char* what) {
-    sink_.Emit(DiagnosticKind::kXmlBadValue, LocationOf(e, place), fmt::format("<{}>: {}", LocalName(e), what));
+    return out;
   }
 
   void AddShape(const XMLElement& e, std::string_view kind, const Place& place) {
@@ -316,7 +221,7 @@ class Reader {
       }
     }
     full_ |= points_ >= options_.max_points;
-    std::erase_if(shape.outlines, [&](SvgOutline& outline) { return !Clip(place.clip, outline); });
+    std::erase_if(shape.outlines, [&](SvgOutline& outline) { return !ClipSvgOutline(place.clip, outline); });
     if (shape.outlines.empty()) return;
     shape.node = place.node;
     shape.fill_luminance = place.style.fill.luminance();
@@ -343,12 +248,12 @@ class Reader {
   }
 
   void ReadLine(const XMLElement& e, const Place& place, Line& line) {
-    const std::vector<double> x = SvgNumbers(AttributeOf(e, "x")), y = SvgNumbers(AttributeOf(e, "y")), dy = SvgNumbers(AttributeOf(e, "dy"));
+    const std::vector<double> x = SvgNumbers(SvgAttribute(e, "x")), y = SvgNumbers(SvgAttribute(e, "y")), dy = SvgNumbers(SvgAttribute(e, "dy"));
     if (!x.empty() || !y.empty() || !dy.empty()) {
       Flush(e, place, line);
       if (!x.empty()) line.at.x() = x.front(), line.letters_x = x;
       if (!y.empty()) line.at.y() = y.front();
-      if (!dy.empty()) line.at.y() += AttributeOf(e, "dy").find("em") != std::string_view::npos ? dy.front() * place.style.font_size : dy.front();
+      if (!dy.empty()) line.at.y() += SvgAttribute(e, "dy").find("em") != std::string_view::npos ? dy.front() * place.style.font_size : dy.front();
     }
     for (const auto* n = e.FirstChild(); n != nullptr; n = n->NextSibling()) {
       if (n->ToText() != nullptr) line.text += n->Value();
@@ -364,7 +269,7 @@ class Reader {
   // Programs that print put several texts of one height into one element: they are told by the jumps between their letters.
   void Flush(const XMLElement& e, const Place& place, Line& line) {
     const std::vector<double> x = std::exchange(line.letters_x, {});
-    const std::string text = fmt::format("{}", fmt::join(Words(std::exchange(line.text, {})), " "));
+    const std::string text = fmt::format("{}", fmt::join(SvgWords(std::exchange(line.text, {})), " "));
     const double size = place.style.font_size, letter = kLetter * size;
     const bool one_by_one = x.size() > 1 && x.size() <= text.size() && std::all_of(text.begin(), text.end(), IsAscii);
     size_t first = 0;
@@ -383,7 +288,7 @@ class Reader {
   }
 
   void FlushPart(const XMLElement& e, const Place& place, Line& line) {
-    const std::string text = fmt::format("{}", fmt::join(Words(std::exchange(line.text, {})), " "));
+    const std::string text = fmt::format("{}", fmt::join(SvgWords(std::exchange(line.text, {})), " "));
     const double size = place.style.font_size;
     const double width = line.width > 0 ? line.width : kLetter * size * static_cast<double>(text.size());
     const Vector2d at = place.T * (line.at + Vector2d((0.5 - place.style.text_anchor) * width, -kMiddle * size));

@@ -9,9 +9,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <deque>
-#include <map>
 #include <new>
 #include <utility>
 #include <vector>
@@ -20,28 +18,10 @@
 #include "compiler/passes/floor_outlines.h"
 #include "compiler/passes/polygon.h"
 #include "compiler/passes/snap.h"
+#include "compiler/passes/space_regions.h"
 
 namespace plumb::compiler {
 namespace {
-
-// Winding number per outline, in their order: of footprints by their index, then of dividers. Those with 0 are left out.
-using Windings = std::vector<std::pair<uint32_t, int>>;
-
-void AddTo(Windings& windings, uint32_t outline, int count) {
-  const auto at = std::lower_bound(windings.begin(), windings.end(), outline, [](const auto& w, uint32_t o) { return w.first < o; });
-  if (at == windings.end() || at->first != outline)
-    windings.insert(at, {outline, count});
-  else if ((at->second += count) == 0)
-    windings.erase(at);
-}
-
-struct FaceLabel {
-  bool known = false;
-  Windings windings;
-  uint32_t index = kNoIndex;   // in Floor::faces
-  uint32_t region = kNoIndex;  // free faces that no wall divides have the same
-  uint32_t space = kNoIndex;   // divider that the face belongs to
-};
 
 // Of outlines that meet in vertices only no crossing is constructed: doubles do. Predicates on points are exact; slopes about a vertex are
 // compared by rounded lines, which the snapping's radius keeps far apart.
@@ -138,24 +118,13 @@ class MapBuilder {
     return windings;
   }
 
-  template <class Visit>
-  static void ForEachEdge(Face face, const Visit& visit) {
-    const auto walk = [&visit](Circulator first) {
-      auto edge = first;
-      do visit(edge);
-      while (++edge != first);
-    };
-    for (auto ccb = face->outer_ccbs_begin(); ccb != face->outer_ccbs_end(); ++ccb) walk(*ccb);
-    for (auto ccb = face->inner_ccbs_begin(); ccb != face->inner_ccbs_end(); ++ccb) walk(*ccb);
-  }
-
   void LabelFaces() {
     std::deque<Face> open = {arrangement_.unbounded_face()};
     open.front()->data().known = true;
     while (!open.empty()) {
       const Face face = open.front();
       open.pop_front();
-      ForEachEdge(face, [&](Circulator edge) {
+      ForEachEdge<Circulator>(face, [&](Circulator edge) {
         const Face across = edge->twin()->face();
         if (std::exchange(across->data().known, true)) return;
         across->data().windings = StepOver(edge, face->data().windings);
@@ -164,10 +133,6 @@ class MapBuilder {
     }
   }
 
-  bool IsFree(typename Arrangement::Face_const_handle f) const {
-    const Windings& windings = f->data().windings;
-    return !f->is_unbounded() && (windings.empty() || numbers_.IsDivider(windings.front().first));
-  }
   // No wall's outline and no bridge runs here.
   bool IsVirtual(ConstHalfedge edge) const {
     bool is_virtual = true;
@@ -175,21 +140,10 @@ class MapBuilder {
     return is_virtual;
   }
 
-  static double AreaOf(Face face) {
-    double twice = 0;
-    ForEachEdge(face, [&twice](Circulator edge) {
-      const auto &a = edge->source()->point(), &b = edge->target()->point();
-      twice += CGAL::to_double(a.x()) * CGAL::to_double(b.y()) - CGAL::to_double(b.x()) * CGAL::to_double(a.y());
-    });
-    return 0.5 * twice;
-  }
-
   // Gives the parts of an open plan to the spaces that share it, and takes out the dividers' edges that divide nothing.
   void Divide() {
-    FindRegions();
-    AssignSpaces();
-    while (AdoptStrips()) {
-    }
+    const auto is_virtual = [this](ConstHalfedge edge) { return IsVirtual(edge); };
+    SpaceRegions<Arrangement, decltype(is_virtual)>(numbers_, options_.max_strip_width_m, is_virtual, arrangement_).Run();
     for (auto e = arrangement_.edges_begin(); e != arrangement_.edges_end();) {
       const typename Arrangement::Halfedge_handle here = e->twin()->twin();
       ++e;
@@ -198,66 +152,6 @@ class MapBuilder {
       arrangement_.remove_edge(here);
     }
     RemoveAntennas();
-  }
-
-  void FindRegions() {
-    uint32_t regions = 0;
-    for (auto f = arrangement_.faces_begin(); f != arrangement_.faces_end(); ++f) {
-      if (!IsFree(f) || f->data().region != kNoIndex) continue;
-      std::vector<Face> open = {f};
-      f->data().region = regions;
-      while (!open.empty()) {
-        const Face face = open.back();
-        open.pop_back();
-        ForEachEdge(face, [&](Circulator edge) {
-          const Face across = edge->twin()->face();
-          if (!IsFree(across) || !IsVirtual(edge) || across->data().region != kNoIndex) return;
-          across->data().region = regions;
-          open.push_back(across);
-        });
-      }
-      ++regions;
-    }
-  }
-
-  // A divider divides only the region that holds most of it: spaces drawn to the middle of walls do not cut up the rooms next door.
-  void AssignSpaces() {
-    std::map<std::pair<uint32_t, uint32_t>, double> area;  // by divider and region
-    for (auto f = arrangement_.faces_begin(); f != arrangement_.faces_end(); ++f) {
-      for (const auto& [outline, winding] : f->data().windings) {
-        if (IsFree(f) && numbers_.IsDivider(outline)) area[{outline, f->data().region}] += AreaOf(f);
-      }
-    }
-    std::map<uint32_t, std::pair<double, uint32_t>> home;  // divider to area and region
-    for (const auto& [key, size] : area) home[key.first] = std::max(home[key.first], {size, key.second});
-    for (auto f = arrangement_.faces_begin(); f != arrangement_.faces_end(); ++f) {
-      if (!IsFree(f)) continue;
-      for (const auto& [outline, winding] : f->data().windings) {
-        if (f->data().space == kNoIndex && home[outline].second == f->data().region) f->data().space = outline;
-      }
-    }
-  }
-
-  // Narrow parts without space (between a space and the wall, between two spaces) join the space with the longest common border.
-  bool AdoptStrips() {
-    bool changed = false;
-    for (auto f = arrangement_.faces_begin(); f != arrangement_.faces_end(); ++f) {
-      if (!IsFree(f) || f->data().space != kNoIndex) continue;
-      double perimeter = 0;
-      std::map<uint32_t, double> border;
-      ForEachEdge(f, [&](Circulator edge) {
-        const double length = std::sqrt(CGAL::to_double(CGAL::squared_distance(edge->source()->point(), edge->target()->point())));
-        const Face across = edge->twin()->face();
-        perimeter += length;
-        if (IsVirtual(edge) && across->data().region == f->data().region && across->data().space != kNoIndex)
-          border[across->data().space] += length;
-      });
-      if (border.empty() || 2 * AreaOf(f) > options_.max_strip_width_m * perimeter) continue;
-      f->data().space =
-          std::max_element(border.begin(), border.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
-      changed = true;
-    }
-    return changed;
   }
 
   void ExtractVertices() {

@@ -9,9 +9,9 @@
 
 namespace plumb::compiler {
 
-// Makes graph.mesh of the bodies of plan.elements, which it takes; triangle.element is the position there. Vertices of an element that fall on
-// the same single-precision point are one, degenerate triangles go. Sets graph.origin: the plan's, moved to the middle of the triangles if those lie
-// far from it.
+// Makes graph.mesh of the bodies of plan.elements, which it takes; triangle.element is the position there. Vertices of an element that fall
+// on the same single-precision point are one, degenerate triangles go. Sets graph.origin: the plan's, moved to the middle of the triangles
+// if those lie far from it.
 void EmitMesh(PlanIr& plan, AGraph& graph);
 
 // Adds the plan's origin to every pose, polygon and plane: from PlanIr's frame to the plan frame. graph.mesh stays.

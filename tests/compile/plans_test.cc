@@ -91,7 +91,8 @@ TEST_P(Plans, HasTheExpectedRoomsToASquareCentimetre) {
     if (found.is_null()) continue;
     EXPECT_EQ(found.at("name"), room.at("name"));
     // Rooms with curved walls are polygons in the graph.
-    EXPECT_NEAR(found.at("area_m2").get<double>(), room.at("area_m2").get<double>(), room.value("area_tolerance_m2", 1e-4)) << room.at("name");
+    EXPECT_NEAR(found.at("area_m2").get<double>(), room.at("area_m2").get<double>(), room.value("area_tolerance_m2", 1e-4))
+        << room.at("name");
     EXPECT_GE(found.at("surfaces").size(), room.value("surfaces", 4u)) << room.at("name");
   }
 }
@@ -111,7 +112,8 @@ TEST_P(Plans, HasTheExpectedDoorwaysBetweenTheirRooms) {
     EXPECT_NEAR(found->at("height_m").get<double>(), doorway.at("height_m").get<double>(), 1e-3) << doorway.at("name");
     const Json &a = doorway.at("rooms").at(0), &b = doorway.at("rooms").at(1);
     const Json found_a = RoomGuid(found->at("rooms").at(0)), found_b = RoomGuid(found->at("rooms").at(1));
-    EXPECT_TRUE((found_a == a && found_b == b) || (found_a == b && found_b == a)) << doorway.at("name") << ": " << found_a << ", " << found_b;
+    EXPECT_TRUE((found_a == a && found_b == b) || (found_a == b && found_b == a))
+        << doorway.at("name") << ": " << found_a << ", " << found_b;
   }
 }
 

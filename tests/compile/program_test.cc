@@ -32,7 +32,8 @@ class Program : public ::testing::Test {
 
   // `first`: of the shell, before the program.
   Outcome Plumb(const std::string& arguments, const std::string& first = "true") {
-    const std::string command = "cd '" + folder_.path() + "' && " + first + " && timeout 60 '" PLUMB_PROGRAM "' " + arguments + " > .out 2> .err";
+    const std::string command =
+        "cd '" + folder_.path() + "' && " + first + " && timeout 60 '" PLUMB_PROGRAM "' " + arguments + " > .out 2> .err";
     const int status = std::system(command.c_str());
     Outcome outcome{WIFEXITED(status) ? WEXITSTATUS(status) : -1, Read(".out"), Read(".err")};
     fs::remove(folder_ / ".out");

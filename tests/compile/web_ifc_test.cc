@@ -35,7 +35,8 @@ using compiler::DiagnosticKind;
 constexpr double kExact_m = 0.001;
 constexpr double kStep_m = 0.2;          // between samples, along and up
 constexpr double kMargin_m = 0.03;       // samples keep off the edges of a surface and its openings
-constexpr double kMinCovered = 0.95;     // of the samples lie on the wall; the rest are tops that slope and openings that the A-Graph has none for
+// Of the samples lie on the wall; the rest are tops that slope and openings that the A-Graph has none for.
+constexpr double kMinCovered = 0.95;
 constexpr int kNoWebIfc = 3;
 
 struct Facet {
@@ -120,7 +121,8 @@ std::vector<Eigen::Vector3d> Samples(const AGraph& graph, const Surface& s) {
   std::vector<Eigen::Vector3d> out;
   for (double x = kMargin_m; x < s.length_m() - kMargin_m; x += kStep_m) {
     for (double z = top_m; z > s.z_min_m + kMargin_m; z -= kStep_m) {
-      const bool open = std::any_of(holes.begin(), holes.end(), [&](const Hole& h) { return x > h.from_m && x < h.to_m && z > h.bottom_m && z < h.top_m; });
+      const bool open = std::any_of(holes.begin(), holes.end(),
+                                    [&](const Hole& h) { return x > h.from_m && x < h.to_m && z > h.bottom_m && z < h.top_m; });
       const Eigen::Vector2d at = s.start + x * along;
       if (!open) out.emplace_back(at.x(), at.y(), z);
     }
@@ -158,7 +160,8 @@ class WebIfc : public ::testing::TestWithParam<std::string> {
     if (!fs::exists(plan)) GTEST_SKIP() << plan << " is not there";
     const test::TemporaryFolder folder;
     const std::string out = folder / "walls";
-    const std::string command = "node '" PLUMB_SOURCE_DIR "/tests/support/web_ifc.mjs' walls '" + plan.string() + "' '" + out + "' 2> /dev/null";
+    const std::string command =
+        "node '" PLUMB_SOURCE_DIR "/tests/support/web_ifc.mjs' walls '" + plan.string() + "' '" + out + "' 2> /dev/null";
     const int status = std::system(command.c_str());
     const int code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     if (code == kNoWebIfc || code == 127) GTEST_SKIP() << "node or web-ifc is not installed: npm install -g web-ifc";
@@ -225,7 +228,9 @@ TEST_P(WebIfc, HasTheSameWallSurfacesToAMillimetre) {
     const Wall& wall = graph.walls[s.wall.index()];
     const auto facets = facets_.find(wall.guid);
     // A bridged gap is taken for wall where none was drawn.
-    if (s.arc || not_exact.contains(wall.guid) || facets == facets_.end() || s.length_m() <= std::max(2 * kMargin_m, compiler::CompileOptions().max_gap_m)) continue;
+    if (s.arc || not_exact.contains(wall.guid) || facets == facets_.end() ||
+        s.length_m() <= std::max(2 * kMargin_m, compiler::CompileOptions().max_gap_m))
+      continue;
     const double off_m = OffPlane(s, facets->second);
     const bool lacks_faces = LacksFaces(facets->second);
     if (off_m > kExact_m && lacks_faces) {
@@ -240,8 +245,8 @@ TEST_P(WebIfc, HasTheSameWallSurfacesToAMillimetre) {
       ++open;
       continue;
     }
-    EXPECT_LE(off_m, kExact_m) << "surface " << i << " from " << s.start.transpose() << " to " << s.end.transpose() << " of wall " << wall.guid << " `"
-                               << wall.name << "`";
+    EXPECT_LE(off_m, kExact_m) << "surface " << i << " from " << s.start.transpose() << " to " << s.end.transpose() << " of wall "
+                               << wall.guid << " `" << wall.name << "`";
     ++surfaces;
     worst_m = std::max(worst_m, off_m);
     for (const Eigen::Vector3d& p : Samples(graph, s)) {
@@ -252,19 +257,22 @@ TEST_P(WebIfc, HasTheSameWallSurfacesToAMillimetre) {
     }
   }
   EXPECT_GT(surfaces, 0u);
-  EXPECT_GE(static_cast<double>(covered), kMinCovered * static_cast<double>(samples)) << covered << " of " << samples << " samples lie on a wall";
+  EXPECT_GE(static_cast<double>(covered), kMinCovered * static_cast<double>(samples))
+      << covered << " of " << samples << " samples lie on a wall";
   std::cout << GetParam() << ": " << surfaces << " surfaces at most " << 1000 * worst_m << " mm off; " << covered << " of " << samples
-            << " samples lie on the wall; left out: " << leaning << " on leaning faces, " << open << " that openings take whole, walls that lack faces in web-ifc: "
-            << lacking.size() << "\n";
+            << " samples lie on the wall; left out: " << leaning << " on leaning faces, " << open
+            << " that openings take whole, walls that lack faces in web-ifc: " << lacking.size() << "\n";
 }
 
 // Plans of at least some rooms, whose straight walls the compiler reads exactly.
 INSTANTIATE_TEST_SUITE_P(All, WebIfc,
-                         ::testing::Values("AC11-Institute-Var-2-IFC", "AC20-FZK-Haus", "Allplan-Smiley-West", "brunopostle_creative-freedom", "Duplex_A_20110907",
-                                           "Jesse.1", "jgs_fhnw_model", "MAD_SCIENTIST_212", "Office_A_20110811", "revit2012_janesville_restaurant"),
+                         ::testing::Values("AC11-Institute-Var-2-IFC", "AC20-FZK-Haus", "Allplan-Smiley-West",
+                                           "brunopostle_creative-freedom", "Duplex_A_20110907", "Jesse.1", "jgs_fhnw_model",
+                                           "MAD_SCIENTIST_212", "Office_A_20110811", "revit2012_janesville_restaurant"),
                          [](const auto& plan) {
                            std::string name = plan.param;
-                           std::replace_if(name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
+                           std::replace_if(
+                               name.begin(), name.end(), [](char c) { return !std::isalnum(static_cast<unsigned char>(c)); }, '_');
                            return name;
                          });
 

@@ -11,7 +11,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   IfcOptions options;
   options.max_triangles_per_element = 20000;
   options.max_triangles = 100000;
-  Source source{.path = "plan.ifc", .bytes = std::string(reinterpret_cast<const char*>(data), size), .sha256 = {}, .format = SourceFormat::kUnknown};
+  Source source{
+      .path = "plan.ifc", .bytes = std::string(reinterpret_cast<const char*>(data), size), .sha256 = {}, .format = SourceFormat::kUnknown};
   source.format = DetectFormat(source.bytes);
   DiagnosticSink diagnostics;
   (void)ReadIfc(source, diagnostics, options);

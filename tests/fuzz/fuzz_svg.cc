@@ -9,7 +9,8 @@ extern "C" int LLVMFuzzerTestOneInput(const uint8_t* data, size_t size) {
   // Limits at which one input stays below a second.
   DrawingFileOptions options;
   options.plan.mass.max_vertices = 5000;
-  const Source source{.path = "plan.svg", .bytes = std::string(reinterpret_cast<const char*>(data), size), .sha256 = {}, .format = SourceFormat::kSvg};
+  const Source source{
+      .path = "plan.svg", .bytes = std::string(reinterpret_cast<const char*>(data), size), .sha256 = {}, .format = SourceFormat::kSvg};
   DiagnosticSink diagnostics;
   PlanIr plan;
   (void)AppendSvg(source, {{}, "Storey", {}, 0.0}, options, plan, diagnostics);

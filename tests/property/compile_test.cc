@@ -108,7 +108,8 @@ std::string Describe(const AGraph& g) {
   }
   for (const Wall& w : g.walls) lines.push_back(fmt::format("wall {} {} {}", w.guid, number(w.thickness_m), w.external));
   for (const Window& w : g.windows) lines.push_back(fmt::format("window {} {}", w.guid, number(w.width_m)));
-  for (const Surface& s : g.surfaces) lines.push_back(fmt::format("surface {} {} {}", g.walls[s.wall.index()].guid, room(s.room), number(s.length_m())));
+  for (const Surface& s : g.surfaces)
+    lines.push_back(fmt::format("surface {} {} {}", g.walls[s.wall.index()].guid, room(s.room), number(s.length_m())));
   std::sort(lines.begin(), lines.end());
   return Joined(lines);
 }

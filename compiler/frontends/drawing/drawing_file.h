@@ -26,8 +26,10 @@ struct DrawingFileOptions {
   [[nodiscard]] std::optional<double> GivenScale() const;
 };
 
-// Those that `options` name, else the built-in set that fits `layers` best, which is said. None: there are no such rules, and an error says so.
-[[nodiscard]] std::optional<LayerRules> RulesFor(const std::vector<LayerWeight>& layers, const DrawingFileOptions& options, DiagnosticSink& sink);
+// Those that `options` name, else the built-in set that fits `layers` best, which is said. None: there are no such rules, and an error says
+// so.
+[[nodiscard]] std::optional<LayerRules> RulesFor(const std::vector<LayerWeight>& layers, const DrawingFileOptions& options,
+                                                 DiagnosticSink& sink);
 
 // Says so if nothing in the drawing has usual sizes where its unit is `metres` long, as the options have it.
 void CheckGivenScale(double metres, const Drawing& drawing, DiagnosticSink& sink);
@@ -36,6 +38,7 @@ void ScaleDrawing(double metres, Drawing& drawing);
 
 // Appends the storey of a drawing in metres, or its storeys if it has several sheets, to `plan`, the lowest one at `storey.elevation_m`.
 // False: no plan comes of it, and an error says so.
-[[nodiscard]] bool AppendDrawing(Drawing drawing, const PlanStorey& storey, const DrawingFileOptions& options, PlanIr& plan, DiagnosticSink& sink);
+[[nodiscard]] bool AppendDrawing(Drawing drawing, const PlanStorey& storey, const DrawingFileOptions& options, PlanIr& plan,
+                                 DiagnosticSink& sink);
 
 }  // namespace plumb::compiler

@@ -12,7 +12,8 @@ struct RoomOutlineOptions {
   size_t min_rooms = 3;         // fewer are frames around titles
 };
 
-// Adds the smallest closed outline around each text as a space, unless it is a frame around others, and marks its path. The drawing is in metres.
+// Adds the smallest closed outline around each text as a space, unless it is a frame around others, and marks its path. The drawing is in
+// metres.
 void AddOutlinedRooms(Drawing& drawing, const RoomOutlineOptions& options = {});
 
 }  // namespace plumb::compiler

@@ -9,7 +9,8 @@
 namespace plumb::compiler {
 
 // A wall goes on over its openings and where others meet it. One all the way round is two halves. Without openings assigned.
-[[nodiscard]] std::vector<WallRun> FindRoundRuns(const Outline& outline, const std::vector<DrawnOpening>& openings, const RunOptions& options);
+[[nodiscard]] std::vector<WallRun> FindRoundRuns(const Outline& outline, const std::vector<DrawnOpening>& openings,
+                                                 const RunOptions& options);
 
 // The piece of wall that an opening in a curve stands for, where there is no wall beside it.
 [[nodiscard]] WallRun RoundPieceFor(const DrawnOpening& opening);

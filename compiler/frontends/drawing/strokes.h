@@ -11,8 +11,8 @@ struct StrokeOptions {
   double min_length_share = 0.1;   // of all strokes, to be the walls of a drawing
 };
 
-// Turns every open stroke, or unfilled outline, that is as thick as a wall into the outlines of a wall that thick: on layers of walls all of
-// them; where no layer has walls, those much thicker than others, which then are no walls. The drawing is in metres. O(n).
+// Turns every open stroke, or unfilled outline, that is as thick as a wall into the outlines of a wall that thick: on layers of walls all
+// of them; where no layer has walls, those much thicker than others, which then are no walls. The drawing is in metres. O(n).
 void WidenStrokes(Drawing& drawing, const StrokeOptions& options = {});
 
 }  // namespace plumb::compiler

@@ -46,6 +46,7 @@ struct RunOptions {
 };
 
 // Every opening is in exactly one run: a gap's wall goes on over the gap, and a gap that no wall goes on over gets a run of its own.
-[[nodiscard]] std::vector<WallRun> FindWallRuns(const Outline& outline, const std::vector<DrawnOpening>& openings, const RunOptions& options);
+[[nodiscard]] std::vector<WallRun> FindWallRuns(const Outline& outline, const std::vector<DrawnOpening>& openings,
+                                                const RunOptions& options);
 
 }  // namespace plumb::compiler

@@ -19,6 +19,7 @@ struct UnfoldOptions {
 [[nodiscard]] std::vector<LayerWeight> WeighLayers(const DxfDocument& document);
 
 // In the drawing's unit. None: too much comes of it, and an error says so.
-[[nodiscard]] std::optional<Drawing> Unfold(const DxfDocument& document, const LayerRules& rules, const UnfoldOptions& options, DiagnosticSink& sink);
+[[nodiscard]] std::optional<Drawing> Unfold(const DxfDocument& document, const LayerRules& rules, const UnfoldOptions& options,
+                                            DiagnosticSink& sink);
 
 }  // namespace plumb::compiler

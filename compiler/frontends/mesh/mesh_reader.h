@@ -10,8 +10,8 @@
 
 namespace plumb::compiler {
 
-// `hint`: the ending of the format's name for assimp ("obj"); `folder`: where buffers that a glTF names may lie. Loads assimp; throws whatever it
-// does, and what it has read stays in memory: for a process that ends thereafter.
+// `hint`: the ending of the format's name for assimp ("obj"); `folder`: where buffers that a glTF names may lie. Loads assimp; throws
+// whatever it does, and what it has read stays in memory: for a process that ends thereafter.
 [[nodiscard]] Expected<std::vector<MeshObject>> ReadWithAssimp(std::string_view bytes, const std::string& hint, const std::string& folder,
                                                                size_t max_triangles);
 

@@ -1,4 +1,5 @@
-// An SVG file as shapes and texts with all transforms applied and all <use> elements unfolded; y up, in the user units of the root's viewBox.
+// An SVG file as shapes and texts with all transforms applied and all <use> elements unfolded; y up, in the user units of the root's
+// viewBox.
 #pragma once
 
 #include <Eigen/Core>

@@ -14,6 +14,7 @@ namespace plumb::compiler {
 
 // Appends the drawing's storey, or storeys, to `plan`, the lowest one at `storey.elevation_m`. False: no plan comes of it, and an error
 // says so. Same bytes and options, same result. Nothing outside the file is read.
-[[nodiscard]] bool AppendSvg(const Source& source, const PlanStorey& storey, const DrawingFileOptions& options, PlanIr& plan, DiagnosticSink& sink);
+[[nodiscard]] bool AppendSvg(const Source& source, const PlanStorey& storey, const DrawingFileOptions& options, PlanIr& plan,
+                             DiagnosticSink& sink);
 
 }  // namespace plumb::compiler

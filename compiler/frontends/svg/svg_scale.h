@@ -25,7 +25,7 @@ struct ScaleChoice {
 
 // The first of these that gives doors and walls usual sizes: the page's own size, that times a ratio that is stated, a unit that plans are
 // drawn in, a usual ratio of the page near to what the sizes say, the scale at which doors (else walls) have their usual size.
-[[nodiscard]] ScaleChoice ChooseScale(const DrawnSizes& sizes, const std::optional<double>& unit_on_paper_m, const std::vector<double>& ratios,
-                                      const UnitOptions& options = {});
+[[nodiscard]] ScaleChoice ChooseScale(const DrawnSizes& sizes, const std::optional<double>& unit_on_paper_m,
+                                      const std::vector<double>& ratios, const UnitOptions& options = {});
 
 }  // namespace plumb::compiler

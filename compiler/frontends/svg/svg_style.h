@@ -1,4 +1,5 @@
-// How SVG elements are painted, as far as it tells lines from fills: presentation attributes, `style`, and style sheets by element, class and id.
+// How SVG elements are painted, as far as it tells lines from fills: presentation attributes, `style`, and style sheets by element, class
+// and id.
 #pragma once
 
 #include <cstdint>
@@ -38,7 +39,8 @@ class SvgStyleSheet {
  public:
   void Add(std::string_view css);
   // Declarations that hold for an element, the strongest last.
-  [[nodiscard]] std::vector<const SvgDeclaration*> For(std::string_view element, const std::vector<std::string>& classes, std::string_view id) const;
+  [[nodiscard]] std::vector<const SvgDeclaration*> For(std::string_view element, const std::vector<std::string>& classes,
+                                                       std::string_view id) const;
 
  private:
   struct Rule {

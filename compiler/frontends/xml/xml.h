@@ -1,5 +1,5 @@
-// XML of untrusted files, for the frontends that read it. tinyxml2 keeps entities that a file defines as they stand and ends at a nesting of
-// 100 elements, so that neither grows beyond the file's size.
+// XML of untrusted files, for the frontends that read it. tinyxml2 keeps entities that a file defines as they stand and ends at a nesting
+// of 100 elements, so that neither grows beyond the file's size.
 #pragma once
 
 #include <string>

@@ -1,8 +1,9 @@
-// corpus PLAN|FOLDER... [--facts facts.json] [--min-ratio 0.95]: compiles plans and prints what was found of what is there, every miss by name.
+// corpus PLAN|FOLDER... [--facts facts.json] [--min-ratio 0.95]: compiles plans and prints what was found of what is there, every miss by
+// name.
 //
 // Spaces count as matched from an intersection over union of 0.8 with a room; only those that walls enclose count towards the ratio. Doors
-// count as right if their doorway joins the rooms that hold the points on its two sides (truth.h). Exit status 1 if the ratio of either over
-// all plans stays below --min-ratio, 77 if there is no plan.
+// count as right if their doorway joins the rooms that hold the points on its two sides (truth.h). Exit status 1 if the ratio of either
+// over all plans stays below --min-ratio, 77 if there is no plan.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -135,7 +136,9 @@ void ScoreWindows(const PlanIr& plan, const AGraph& graph, const compiler::Diagn
     if (!e.type.starts_with("IfcWindow") || !drawn.insert(e.guid).second) continue;
     score.windows.Count(found.contains(e.guid));
     if (found.contains(e.guid)) continue;
-    const auto said = [&](const compiler::Diagnostic& d) { return d.location.guid == e.guid && d.kind >= compiler::DiagnosticKind::kOpeningNotPlaced; };
+    const auto said = [&](const compiler::Diagnostic& d) {
+      return d.location.guid == e.guid && d.kind >= compiler::DiagnosticKind::kOpeningNotPlaced;
+    };
     const auto why = std::find_if(sink.all().begin(), sink.all().end(), said);
     score.misses.push_back(fmt::format("window `{}`: {}", e.name, why == sink.all().end() ? "nothing is said of it" : why->message));
   }
@@ -196,8 +199,8 @@ PlanScore ScorePlan(const std::string& path, const nlohmann::json& facts) {
 
 void Print(const std::vector<PlanScore>& scores, const PlanScore& sum) {
   constexpr const char* kRow = "{:<38} {:>7} {:>9} {:>9} {:>9} {:>6} {:>9} {:>9} {:>9} {:>8} {:>6} {:>8} {:>8}\n";
-  fmt::print(fmt::runtime(kRow), "plan (found/known)", "storeys", "walls", "windows", "doors", "rooms", "enclosed", "open", "doors ok", "passages",
-             "faults", "read ms", "pass ms");
+  fmt::print(fmt::runtime(kRow), "plan (found/known)", "storeys", "walls", "windows", "doors", "rooms", "enclosed", "open", "doors ok",
+             "passages", "faults", "read ms", "pass ms");
   const auto print = [&](const PlanScore& s) {
     fmt::print(fmt::runtime(kRow), s.name, s.storeys.Text(), s.walls.Text(), s.windows.Text(), s.doors.Text(), s.rooms, s.enclosed.Text(),
                s.open.Text(), s.joined.Text(), s.passages, s.errors, fmt::format("{:.0f}", s.read_ms), fmt::format("{:.0f}", s.passes_ms));

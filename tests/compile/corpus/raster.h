@@ -1,4 +1,5 @@
-// Regions as spans of rows, and a plan's section as cells: the corpus' own way to tell rooms apart, independent of the compiler's planar map.
+// Regions as spans of rows, and a plan's section as cells: the corpus' own way to tell rooms apart, independent of the compiler's planar
+// map.
 #pragma once
 
 #include <Eigen/Geometry>

@@ -32,12 +32,14 @@ TEST(ReportOf, SaysWhereNoPoseIsTheOnlyOne) {
   EXPECT_EQ(ReportOf("p", result, false, true).outcome, Outcome::kFine) << "a doorway leads on from there";
   result.graph->aliases[0].closed = true;
   EXPECT_EQ(ReportOf("p", result, false, true).outcome, Outcome::kFine);
-  EXPECT_NE(ReportOf("p", result, false, true).answer.find("but not in 2 of the rooms"), std::string::npos) << ReportOf("p", result, false, true).answer;
+  EXPECT_NE(ReportOf("p", result, false, true).answer.find("but not in 2 of the rooms"), std::string::npos)
+      << ReportOf("p", result, false, true).answer;
   result.graph->aliases[0].rooms.push_back(RoomId(2));
   result.graph->aliases[0].twins.push_back(RoomId(2));
   EXPECT_EQ(ReportOf("p", result, false, true).outcome, Outcome::kFindings);
   EXPECT_EQ(ReportOf("p", result).outcome, Outcome::kFine) << "as a compilation";
-  EXPECT_NE(ReportOf("p", result, false, true).answer.find("no robot can tell where it is"), std::string::npos) << ReportOf("p", result, false, true).answer;
+  EXPECT_NE(ReportOf("p", result, false, true).answer.find("no robot can tell where it is"), std::string::npos)
+      << ReportOf("p", result, false, true).answer;
 }
 
 TEST(Compile, RefusesInvalidOptions) {

@@ -192,7 +192,9 @@ TEST_F(OpenedFile, SaysThatTheTrianglesWereWrittenOverMeanwhile) {
   ASSERT_TRUE(WriteAGraphFile(house_, path_));
   Expected<AGraphFile> file = AGraphFile::Open(path_);
   ASSERT_TRUE(file);
-  std::fstream(path_, std::ios::in | std::ios::out | std::ios::binary).seekp(static_cast<std::streamoff>(bytes_.size() - mesh_bytes_ / 2)).put('!');
+  std::fstream(path_, std::ios::in | std::ios::out | std::ios::binary)
+      .seekp(static_cast<std::streamoff>(bytes_.size() - mesh_bytes_ / 2))
+      .put('!');
   const Expected<AGraph> whole = std::move(*file).Load();
   ASSERT_FALSE(whole);
   EXPECT_EQ(whole.error().code, ErrorCode::kAGraphDamaged);

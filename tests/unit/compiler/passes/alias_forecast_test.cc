@@ -21,7 +21,8 @@ AGraph Forecasted(AGraph graph, const AliasOptions& options = {}) {
   for (const Alias& a : graph.aliases) {
     EXPECT_EQ(a.rooms.size(), a.twins.size());
     for (size_t i = 0; i < a.rooms.size(); ++i) {
-      const Eigen::Vector3d moved = Eigen::AngleAxisd(a.yaw_rad, Eigen::Vector3d::UnitZ()) * graph.rooms[a.rooms[i].index()].center + a.translation;
+      const Eigen::Vector3d moved =
+          Eigen::AngleAxisd(a.yaw_rad, Eigen::Vector3d::UnitZ()) * graph.rooms[a.rooms[i].index()].center + a.translation;
       EXPECT_LT((moved - graph.rooms[a.twins[i].index()].center).norm(), 0.01) << "room " << i;
     }
   }

@@ -175,7 +175,8 @@ TEST(Windows, InARoofAreSaidAndLeftOut) {
   PlanElement light;
   light.kind = ElementKind::kWindow;
   light.guid = "skylight";
-  light.body = MakeBox({0, 0, 0}, {0.8, 1.2, 0.05}, Eigen::Affine3d(Eigen::Translation3d(2, 1.5, 2.6) * Eigen::AngleAxisd(0.52, Eigen::Vector3d::UnitX())));
+  light.body = MakeBox({0, 0, 0}, {0.8, 1.2, 0.05},
+                       Eigen::Affine3d(Eigen::Translation3d(2, 1.5, 2.6) * Eigen::AngleAxisd(0.52, Eigen::Vector3d::UnitX())));
   b.plan.elements.push_back(light);
   const uint32_t slab = b.Prismatic(ElementKind::kSlab, "roof", test::Rectangle({-1, -1}, {9, 5}), 2.5, 2.7);
   light.guid = "lantern";

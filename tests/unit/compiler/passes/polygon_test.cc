@@ -67,7 +67,8 @@ TEST(OverlapArea, HostilePolygonsTakeBoundedTime) {
 }
 
 TEST(CommonCorners, AreThoseOfTheIntersection) {
-  const std::vector<Ring> a = {test::Rectangle({0, 0}, {4, 1})}, b = {test::Rectangle({1, -3}, {2, 3})}, c = {test::Rectangle({9, 9}, {10, 10})};
+  const std::vector<Ring> a = {test::Rectangle({0, 0}, {4, 1})}, b = {test::Rectangle({1, -3}, {2, 3})},
+                          c = {test::Rectangle({9, 9}, {10, 10})};
   Eigen::AlignedBox2d box;
   for (const auto& p : CommonCorners(a, b)) box.extend(p);
   EXPECT_TRUE(box.isApprox(Eigen::AlignedBox2d(Eigen::Vector2d(1, 0), Eigen::Vector2d(2, 1))));

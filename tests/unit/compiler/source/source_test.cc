@@ -94,14 +94,16 @@ std::string Zip(const std::vector<std::pair<std::string, std::string>>& entries,
     // Written in one go: the sizes follow the data, so the local header has none.
     u32(out, 0x04034b50), u16(out, 20), u16(out, 8), u16(out, deflated ? 8 : 0), u32(out, 0), u32(out, 0), u32(out, 0), u32(out, 0);
     u16(out, name.size()), u16(out, 0), out += name + packed;
-    u32(directory, 0x02014b50), u16(directory, 20), u16(directory, 20), u16(directory, 8), u16(directory, deflated ? 8 : 0), u32(directory, 0);
+    u32(directory, 0x02014b50), u16(directory, 20), u16(directory, 20), u16(directory, 8), u16(directory, deflated ? 8 : 0),
+        u32(directory, 0);
     u32(directory, crc), u32(directory, packed.size()), u32(directory, text.size()), u16(directory, name.size());
     for (int i = 0; i < 4; ++i) u16(directory, 0);
     u32(directory, 0), u32(directory, local), directory += name;
   }
   const size_t start = out.size();
   out += directory;
-  u32(out, 0x06054b50), u32(out, 0), u16(out, entries.size()), u16(out, entries.size()), u32(out, directory.size()), u32(out, start), u16(out, 0);
+  u32(out, 0x06054b50), u32(out, 0), u16(out, entries.size()), u16(out, entries.size()), u32(out, directory.size()), u32(out, start),
+      u16(out, 0);
   return out;
 }
 
@@ -109,7 +111,8 @@ TEST_F(SourceTest, ThePlanInAnArchiveIsRead) {
   const std::string text = "ISO-10303-21;\nHEADER;\n" + std::string(300000, 'x');
   const auto plain = LoadSource(Write("a.ifc", text), diagnostics_);
   for (const bool deflated : {true, false}) {
-    const auto packed = LoadSource(Write("b.ifczip", Zip({{"images/", ""}, {"a.txt", "no plan"}, {"House.IFC", text}}, deflated)), diagnostics_);
+    const auto packed =
+        LoadSource(Write("b.ifczip", Zip({{"images/", ""}, {"a.txt", "no plan"}, {"House.IFC", text}}, deflated)), diagnostics_);
     ASSERT_TRUE(plain && packed);
     EXPECT_EQ(packed->sha256, plain->sha256);
     EXPECT_EQ(packed->format, SourceFormat::kIfcStep);
@@ -123,7 +126,8 @@ TEST_F(SourceTest, ArchivesThatGiveNoPlanAreErrors) {
   std::string damaged = good, cut = good.substr(0, good.size() - 30), encrypted = good;
   damaged[40] ^= 0x55;
   encrypted[encrypted.find("PK\x01\x02") + 8] |= 1;
-  for (const std::string& bytes : {damaged, cut, encrypted, Zip({}), Zip({{"a.ifc", text}, {"b.ifc", text}}), Zip({{"a.txt", text}, {"b.txt", text}})})
+  for (const std::string& bytes :
+       {damaged, cut, encrypted, Zip({}), Zip({{"a.ifc", text}, {"b.ifc", text}}), Zip({{"a.txt", text}, {"b.txt", text}})})
     EXPECT_FALSE(LoadSource(Write("bad.ifczip", bytes), diagnostics_));
   ASSERT_EQ(diagnostics_.all().size(), 6u);
   for (const Diagnostic& d : diagnostics_.all()) EXPECT_EQ(d.kind, DiagnosticKind::kBadCompression) << d.message;

@@ -33,20 +33,69 @@ TEST(RoomNames, ShortNamesWithNumbersAreNames) {
 }
 
 TEST(RoomNames, NotesOnTheDrawingAreNoNames) {
-  for (const char* note : {"Scale 1:100", "SCALE 1 : 50", "M 1:100", "Ma\u00dfstab 1:50", "ECHELLE 1/100", "1:200", "NTS", "Date: 12.03.2019", "2019-03-12",
-                           "Stand 01.02.2020", "Drawn by: JM", "Project: Hall", "Sheet 3", "Blatt 2", "Rev. B", "Section A-A", "Schnitt B-B", "Plan Nr. 5",
-                           "Scale 1/8\" = 1'-0\"", "\u00c9CHELLE 1:33", "M 1:2000", "Ground floor plan", "GRUNDRISS EG", "FLOOR PLAN",
-                           "Floor plan level 2", "2nd floor plan", "Grundriss", "Grundriss 1. Obergescho\u00df", "PLAN DU REZ-DE-CHAUSS\u00c9E", "Plan de l'\u00e9tage 1",
-                           "Pianta piano terra", "Proposed first floor plan", "+3.50", "\u00b1 0.00", "-0,15", "N"})
+  for (const char* note : {"Scale 1:100",
+                           "SCALE 1 : 50",
+                           "M 1:100",
+                           "Ma\u00dfstab 1:50",
+                           "ECHELLE 1/100",
+                           "1:200",
+                           "NTS",
+                           "Date: 12.03.2019",
+                           "2019-03-12",
+                           "Stand 01.02.2020",
+                           "Drawn by: JM",
+                           "Project: Hall",
+                           "Sheet 3",
+                           "Blatt 2",
+                           "Rev. B",
+                           "Section A-A",
+                           "Schnitt B-B",
+                           "Plan Nr. 5",
+                           "Scale 1/8\" = 1'-0\"",
+                           "\u00c9CHELLE 1:33",
+                           "M 1:2000",
+                           "Ground floor plan",
+                           "GRUNDRISS EG",
+                           "FLOOR PLAN",
+                           "Floor plan level 2",
+                           "2nd floor plan",
+                           "Grundriss",
+                           "Grundriss 1. Obergescho\u00df",
+                           "PLAN DU REZ-DE-CHAUSS\u00c9E",
+                           "Plan de l'\u00e9tage 1",
+                           "Pianta piano terra",
+                           "Proposed first floor plan",
+                           "+3.50",
+                           "\u00b1 0.00",
+                           "-0,15",
+                           "N"})
     EXPECT_EQ(NameOf({At(2, note)}), "") << note;
   EXPECT_EQ(NameOf({At(3, "Lounge"), At(2, "Scale 1:100", 0.5)}), "Lounge");
 }
 
 TEST(RoomNames, RoomsMayBeCalledByTheWordsOfNotes) {
-  for (const char* name : {"Drawing office", "3 Drawing office", "Project room", "Projektraum", "Scala", "Plan room", "Section", "Room: 101",
-                           "Standby", "Sheet store", "Data room", "Raum 1-12",
-                           "Office 1/12", "Flat 1/24", "Flat 1/100", "Room 1:12", "Floor plan archive", "Plan de travail", "Grundrissarchiv", "Pianta",
-                           "First floor lounge", "Scala 1"})
+  for (const char* name : {"Drawing office",
+                           "3 Drawing office",
+                           "Project room",
+                           "Projektraum",
+                           "Scala",
+                           "Plan room",
+                           "Section",
+                           "Room: 101",
+                           "Standby",
+                           "Sheet store",
+                           "Data room",
+                           "Raum 1-12",
+                           "Office 1/12",
+                           "Flat 1/24",
+                           "Flat 1/100",
+                           "Room 1:12",
+                           "Floor plan archive",
+                           "Plan de travail",
+                           "Grundrissarchiv",
+                           "Pianta",
+                           "First floor lounge",
+                           "Scala 1"})
     EXPECT_EQ(NameOf({At(2, name)}), name) << name;
   std::vector<DrawnText> stated = {At(2, "N")};
   stated[0].names_room = true;

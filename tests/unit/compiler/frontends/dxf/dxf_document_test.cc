@@ -35,7 +35,8 @@ TEST(DxfDocument, EntitiesHaveHandleLayerAndLine) {
 }
 
 TEST(DxfDocument, LinesStandBetweenOtherEntitiesAsInTheFile) {
-  const DxfDocument d = Read(DxfText().Box("A", 0, 0, 1, 1).Line("B", 1, 2, 3, 4).Line("C", 5, 6, 7, 8).Box("D", 0, 0, 1, 1).Line("E", 9, 9, 8, 8).Str());
+  const DxfDocument d =
+      Read(DxfText().Box("A", 0, 0, 1, 1).Line("B", 1, 2, 3, 4).Line("C", 5, 6, 7, 8).Box("D", 0, 0, 1, 1).Line("E", 9, 9, 8, 8).Str());
   std::string layers;
   for (const DxfEntity& e : d.entities) layers += d.layers[e.layer].name;
   EXPECT_EQ(layers, "ABCDE");
@@ -46,7 +47,8 @@ TEST(DxfDocument, LinesStandBetweenOtherEntitiesAsInTheFile) {
 
 TEST(DxfDocument, NumbersOfLinesMayBeWrittenInAnyWay) {
   const auto line = [](const std::string& x0) {
-    return "0\nSECTION\n2\nENTITIES\n0\nLINE\n8\nW\n10\n" + x0 + "\n20\n2\n11\n3\n21\n4\n0\nLINE\n8\nW\n10\n5\n20\n6\n11\n7\n21\n8\n0\nENDSEC\n0\nEOF\n";
+    return "0\nSECTION\n2\nENTITIES\n0\nLINE\n8\nW\n10\n" + x0 +
+           "\n20\n2\n11\n3\n21\n4\n0\nLINE\n8\nW\n10\n5\n20\n6\n11\n7\n21\n8\n0\nENDSEC\n0\nEOF\n";
   };
   for (const char* x0 : {"1.5", " 1.50000 ", "15e-1", "+1.5", "1,5"}) {
     const DxfDocument d = Read(line(x0));
@@ -104,7 +106,8 @@ std::string Binary(const std::string& text) {
 }
 
 TEST(DxfDocument, BinaryFilesReadAsTextOnes) {
-  const std::string text = DxfText().Header("$INSUNITS", 70, "5").Line("W", 0.125, 2, 3, 4).Box("W", 0, 0, 7, 1).Text("T", "Bad", 1, 1).Str();
+  const std::string text =
+      DxfText().Header("$INSUNITS", 70, "5").Line("W", 0.125, 2, 3, 4).Box("W", 0, 0, 7, 1).Text("T", "Bad", 1, 1).Str();
   const DxfDocument a = Read(text), b = Read(Binary(text));
   ASSERT_EQ(b.entities.size(), a.entities.size());
   EXPECT_EQ(b.insunits, 5);
@@ -125,7 +128,8 @@ TEST(DxfDocument, OldPolylinesHaveTheirVertices) {
 }
 
 TEST(DxfDocument, BulgesAreArcsAndTheRestStaysStraight) {
-  const DxfDocument d = Read(DxfText().Entity("LWPOLYLINE", "W", {{90, "3"}, {10, "0"}, {20, "0"}, {10, "2"}, {20, "0"}, {42, "1"}, {10, "2"}, {20, "2"}}).Str());
+  const DxfDocument d = Read(
+      DxfText().Entity("LWPOLYLINE", "W", {{90, "3"}, {10, "0"}, {20, "0"}, {10, "2"}, {20, "0"}, {42, "1"}, {10, "2"}, {20, "2"}}).Str());
   ASSERT_EQ(d.entities.size(), 2u);
   EXPECT_FALSE(d.entities[0].paths[0].curved);
   ASSERT_EQ(d.entities[1].paths[0].arcs.size(), 1u);
@@ -133,7 +137,8 @@ TEST(DxfDocument, BulgesAreArcsAndTheRestStaysStraight) {
 }
 
 TEST(DxfDocument, ExtrusionDownMirrorsArcs) {
-  const DxfDocument d = Read(DxfText().Entity("ARC", "W", {{10, "3"}, {20, "1"}, {40, "1"}, {50, "0"}, {51, "90"}, {210, "0"}, {220, "0"}, {230, "-1"}}).Str());
+  const DxfDocument d = Read(
+      DxfText().Entity("ARC", "W", {{10, "3"}, {20, "1"}, {40, "1"}, {50, "0"}, {51, "90"}, {210, "0"}, {220, "0"}, {230, "-1"}}).Str());
   ASSERT_EQ(d.entities.size(), 1u);
   EXPECT_NEAR(d.entities[0].paths[0].arcs[0].center.x(), -3, 1e-9);
   EXPECT_NEAR(d.entities[0].paths[0].points.front().x(), -4, 1e-9);
@@ -141,8 +146,9 @@ TEST(DxfDocument, ExtrusionDownMirrorsArcs) {
 
 TEST(DxfDocument, HatchesAreFilledOutlines) {
   const DxfDocument d = Read(DxfText()
-                                 .Entity("HATCH", "W", {{2, "SOLID"}, {70, "1"}, {71, "0"}, {91, "1"}, {92, "3"}, {72, "0"}, {73, "1"}, {93, "4"}, {10, "0"}, {20, "0"},
-                                                        {10, "5"}, {20, "0"}, {10, "5"}, {20, "1"}, {10, "0"}, {20, "1"}, {97, "0"}, {75, "0"}, {76, "1"}, {98, "0"}})
+                                 .Entity("HATCH", "W", {{2, "SOLID"}, {70, "1"}, {71, "0"}, {91, "1"}, {92, "3"}, {72, "0"}, {73, "1"},
+                                                        {93, "4"},    {10, "0"}, {20, "0"}, {10, "5"}, {20, "0"}, {10, "5"}, {20, "1"},
+                                                        {10, "0"},    {20, "1"}, {97, "0"}, {75, "0"}, {76, "1"}, {98, "0"}})
                                  .Str());
   ASSERT_EQ(d.entities.size(), 1u);
   EXPECT_TRUE(d.entities[0].paths[0].filled);

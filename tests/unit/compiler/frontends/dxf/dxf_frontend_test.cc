@@ -27,7 +27,9 @@ class DxfPlans : public testing::Test {
     std::ofstream(path, std::ios::binary) << bytes;
     return path;
   }
-  CompileResult CompileText(const DxfText& dxf, const CompileOptions& options = {}) { return Compile(Write("plan.dxf", dxf.Str()), options); }
+  CompileResult CompileText(const DxfText& dxf, const CompileOptions& options = {}) {
+    return Compile(Write("plan.dxf", dxf.Str()), options);
+  }
   // With a graph, or the diagnostics as failures.
   AGraph GraphOf(const DxfText& dxf, const CompileOptions& options = {}) {
     const CompileResult result = CompileText(dxf, options);
@@ -48,8 +50,10 @@ DxfText TwoRooms(const std::string& layer, double k = 1) {
   out.Header("$INSUNITS", 70, k == 1 ? "6" : "4");
   const auto line = [&](double x0, double y0, double x1, double y1) { out.Line(layer, k * x0, k * y0, k * x1, k * y1); };
   line(0, 0, 8.2, 0), line(8.2, 0, 8.2, 4), line(8.2, 4, 0, 4), line(0, 4, 0, 0);
-  line(0.2, 0.2, 4.0, 0.2), line(4.0, 0.2, 4.0, 1), line(4.0, 1, 4.1, 1), line(4.1, 1, 4.1, 0.2), line(4.1, 0.2, 8.0, 0.2), line(8.0, 0.2, 8.0, 3.8);
-  line(8.0, 3.8, 4.1, 3.8), line(4.1, 3.8, 4.1, 1.9), line(4.1, 1.9, 4.0, 1.9), line(4.0, 1.9, 4.0, 3.8), line(4.0, 3.8, 0.2, 3.8), line(0.2, 3.8, 0.2, 0.2);
+  line(0.2, 0.2, 4.0, 0.2), line(4.0, 0.2, 4.0, 1), line(4.0, 1, 4.1, 1), line(4.1, 1, 4.1, 0.2), line(4.1, 0.2, 8.0, 0.2),
+      line(8.0, 0.2, 8.0, 3.8);
+  line(8.0, 3.8, 4.1, 3.8), line(4.1, 3.8, 4.1, 1.9), line(4.1, 1.9, 4.0, 1.9), line(4.0, 1.9, 4.0, 3.8), line(4.0, 3.8, 0.2, 3.8),
+      line(0.2, 3.8, 0.2, 0.2);
   return out;
 }
 
@@ -123,7 +127,18 @@ TEST_F(DxfPlans, MillimetresAndStatedUnitGiveTheSamePlan) {
 TEST_F(DxfPlans, CurvedWallsBoundTheirRoom) {
   DxfText dxf;
   dxf.Header("$INSUNITS", 70, "6");
-  dxf.Entity("LWPOLYLINE", "WALL", {{90, "4"}, {70, "1"}, {10, "-3.2"}, {20, "-0.2"}, {10, "3.2"}, {20, "-0.2"}, {10, "3.2"}, {20, "0"}, {42, "1"}, {10, "-3.2"}, {20, "0"}});
+  dxf.Entity("LWPOLYLINE", "WALL",
+             {{90, "4"},
+              {70, "1"},
+              {10, "-3.2"},
+              {20, "-0.2"},
+              {10, "3.2"},
+              {20, "-0.2"},
+              {10, "3.2"},
+              {20, "0"},
+              {42, "1"},
+              {10, "-3.2"},
+              {20, "0"}});
   dxf.Entity("LWPOLYLINE", "WALL", {{90, "2"}, {70, "1"}, {10, "-3"}, {20, "0"}, {10, "3"}, {20, "0"}, {42, "1"}});
   const AGraph g = GraphOf(dxf);
   ASSERT_EQ(g.rooms.size(), 1u);
@@ -137,13 +152,19 @@ TEST_F(DxfPlans, DoubleLinesOfALargeRadiusAreTwoArcs) {
     dxf.Header("$INSUNITS", 70, k == 1 ? "6" : "4");
     const auto arc = [&](double radius_m, double half_m) {
       const double half_deg = std::asin(half_m / radius_m) * 180 / std::numbers::pi;
-      dxf.Entity("ARC", "WALL", {{10, "0"}, {20, fmt::format("{}", -100 * k)}, {40, fmt::format("{}", radius_m * k)}, {50, fmt::format("{}", 90 - half_deg)},
-                                 {51, fmt::format("{}", 90 + half_deg)}});
+      dxf.Entity("ARC", "WALL",
+                 {{10, "0"},
+                  {20, fmt::format("{}", -100 * k)},
+                  {40, fmt::format("{}", radius_m * k)},
+                  {50, fmt::format("{}", 90 - half_deg)},
+                  {51, fmt::format("{}", 90 + half_deg)}});
       return std::sqrt(radius_m * radius_m - half_m * half_m) - 100;  // its ends' y
     };
     for (const double offset_m : {0.0, 0.3}) {
       const double x = 10 + offset_m, y = arc(100 + offset_m, x), low = -8 - offset_m;
-      dxf.Line("WALL", k * x, k * y, k * x, k * low).Line("WALL", -k * x, k * y, -k * x, k * low).Line("WALL", k * x, k * low, -k * x, k * low);
+      dxf.Line("WALL", k * x, k * y, k * x, k * low)
+          .Line("WALL", -k * x, k * y, -k * x, k * low)
+          .Line("WALL", k * x, k * low, -k * x, k * low);
     }
     const AGraph g = GraphOf(dxf);
     ASSERT_EQ(g.rooms.size(), 1u);
@@ -190,7 +211,12 @@ TEST_F(DxfPlans, OpenEndsOfWallsAreClosed) {
 
 TEST_F(DxfPlans, CoordinatesOfACountryKeepTheirPrecision) {
   DxfText far;
-  far.Header("$INSUNITS", 70, "6").Begin("HOUSE").Box("0", 0, 0, 5, 4).Box("0", 0.2, 0.2, 4.8, 3.8).End().Insert("WALL", "HOUSE", 3456789.25, 5432100.5);
+  far.Header("$INSUNITS", 70, "6")
+      .Begin("HOUSE")
+      .Box("0", 0, 0, 5, 4)
+      .Box("0", 0.2, 0.2, 4.8, 3.8)
+      .End()
+      .Insert("WALL", "HOUSE", 3456789.25, 5432100.5);
   const AGraph g = GraphOf(far);
   ASSERT_EQ(g.rooms.size(), 1u);
   EXPECT_NEAR(g.rooms[0].area_m2, 4.6 * 3.6, 1e-3);

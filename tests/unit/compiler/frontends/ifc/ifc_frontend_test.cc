@@ -398,7 +398,9 @@ TEST(IfcFrontend, AGlobalIdUsedTwiceIsSaidAndBothAreKept) {
                                                                  "#82=IFCPRODUCTDEFINITIONSHAPE($,$,(#24));\n"));
   ASSERT_TRUE(result.plan);
   EXPECT_TRUE(result.Has(DiagnosticKind::kDuplicateGlobalId));
-  EXPECT_EQ(std::count_if(result.plan->elements.begin(), result.plan->elements.end(), [](const PlanElement& e) { return e.kind == ElementKind::kWall; }), 2);
+  EXPECT_EQ(std::count_if(result.plan->elements.begin(), result.plan->elements.end(),
+                          [](const PlanElement& e) { return e.kind == ElementKind::kWall; }),
+            2);
 }
 
 TEST(IfcFrontend, AMapConversionToWhereThePlanStandsIsSaid) {
@@ -431,8 +433,9 @@ TEST(IfcFrontend, AMapConversionInThePropertySetOfIfc2x3IsSaid) {
 }
 
 TEST(IfcFrontend, WhatHasNoBuildingIsRefused) {
-  for (const std::string data : {"", "#10=PRODUCT('bracket','bracket','',(#11));\n#11=PRODUCT_CONTEXT('',$,'mechanical');",
-                                 "#10=FOO(1,2,3);\n#11=BAR('wall',#10);", "#10=IFCWALLTYPE('type000000000000000001',$,'T',$,$,$,$,$,$,.STANDARD.);"}) {
+  for (const std::string data :
+       {"", "#10=PRODUCT('bracket','bracket','',(#11));\n#11=PRODUCT_CONTEXT('',$,'mechanical');", "#10=FOO(1,2,3);\n#11=BAR('wall',#10);",
+        "#10=IFCWALLTYPE('type000000000000000001',$,'T',$,$,$,$,$,$,.STANDARD.);"}) {
     const Result result = Read(test::IfcText(data));
     EXPECT_FALSE(result.plan) << data;
     EXPECT_TRUE(result.Has(DiagnosticKind::kNoBuilding)) << data;

@@ -75,7 +75,8 @@ TEST_F(GridTest, CurvedAxesMeetOnTheirArc) {
   const Isometry3d T = Place(data +
                              "#28=IFCAXIS2PLACEMENT2D(#29,$);\n#29=IFCCARTESIANPOINT((0.,1.));\n#40=IFCGRIDPLACEMENT(#41,$);\n"
                              "#41=IFCVIRTUALGRIDINTERSECTION((#23,#27),(0.,-1.));\n");
-  EXPECT_NEAR((T.translation() - Vector3d(99, 3, 2)).norm(), 0, 1e-3);  // a circle of 2 m, run through to the left, and 1 m to the right of it
+  // A circle of 2 m, run through to the left, and 1 m to the right of it.
+  EXPECT_NEAR((T.translation() - Vector3d(99, 3, 2)).norm(), 0, 1e-3);
 }
 
 TEST_F(GridTest, AxesThatDoNotMeetAreSaid) {

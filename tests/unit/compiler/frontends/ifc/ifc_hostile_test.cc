@@ -71,25 +71,31 @@ TEST_F(HostileIfc, OtherSchemasAreRefused) {
 TEST_F(HostileIfc, NumbersThatAreNoneAreRefused) {
   for (const char* number : {"NAN", "-INF", "1.E999", "1.E308", "-1.#IND"}) {
     const std::string x(number);
-    ExpectRefused(test::IfcText(Wall("#20=IFCLOCALPLACEMENT($,#21);", "#32=IFCEXTRUDEDAREASOLID(#33,$,#34," + x + ");")), DiagnosticKind::kNumberNotFinite);
-    ExpectRefused(test::IfcText(Wall("#20=IFCLOCALPLACEMENT($,#23);\n#23=IFCAXIS2PLACEMENT3D(#24,$,$);\n#24=IFCCARTESIANPOINT((0.," + x + ",0.));")),
+    ExpectRefused(test::IfcText(Wall("#20=IFCLOCALPLACEMENT($,#21);", "#32=IFCEXTRUDEDAREASOLID(#33,$,#34," + x + ");")),
                   DiagnosticKind::kNumberNotFinite);
-    ExpectRefused(test::IfcText(Wall("#20=IFCLOCALPLACEMENT($,#21);",
-                                     "#32=IFCTRIANGULATEDFACESET(#40,$,$,((1,2,3)),$);\n#40=IFCCARTESIANPOINTLIST3D(((0.,0.,0.),(1.,0.,0.),(0.," + x + ",0.)));")),
-                  DiagnosticKind::kNumberNotFinite);
+    ExpectRefused(
+        test::IfcText(Wall("#20=IFCLOCALPLACEMENT($,#23);\n#23=IFCAXIS2PLACEMENT3D(#24,$,$);\n#24=IFCCARTESIANPOINT((0.," + x + ",0.));")),
+        DiagnosticKind::kNumberNotFinite);
+    ExpectRefused(
+        test::IfcText(Wall(
+            "#20=IFCLOCALPLACEMENT($,#21);",
+            "#32=IFCTRIANGULATEDFACESET(#40,$,$,((1,2,3)),$);\n#40=IFCCARTESIANPOINTLIST3D(((0.,0.,0.),(1.,0.,0.),(0.," + x + ",0.)));")),
+        DiagnosticKind::kNumberNotFinite);
   }
 }
 
 TEST_F(HostileIfc, CyclesAreRefused) {
   ExpectRefused(test::IfcText(Wall("#20=IFCLOCALPLACEMENT(#20,#21);")), DiagnosticKind::kReferenceCycle);
   ExpectRefused(test::IfcText(Wall("#20=IFCLOCALPLACEMENT(#23,#21);\n#23=IFCLOCALPLACEMENT(#20,#21);")), DiagnosticKind::kReferenceCycle);
-  ExpectRefused(test::IfcText(Wall("#20=IFCLOCALPLACEMENT($,#21);", "#32=IFCBOOLEANRESULT(.DIFFERENCE.,#32,#32);")), DiagnosticKind::kReferenceCycle);
+  ExpectRefused(test::IfcText(Wall("#20=IFCLOCALPLACEMENT($,#21);", "#32=IFCBOOLEANRESULT(.DIFFERENCE.,#32,#32);")),
+                DiagnosticKind::kReferenceCycle);
   ExpectRefused(test::IfcText(Wall("#20=IFCLOCALPLACEMENT($,#21);",
                                    "#32=IFCBOOLEANRESULT(.DIFFERENCE.,#35,#32);\n#35=IFCEXTRUDEDAREASOLID(#33,$,#34,3.);")),
                 DiagnosticKind::kReferenceCycle);
   ExpectRefused(test::IfcText(Wall("#20=IFCLOCALPLACEMENT($,#21);", "#32=IFCMAPPEDITEM(#35,$);\n#35=IFCREPRESENTATIONMAP(#21,#31);")),
                 DiagnosticKind::kReferenceCycle);
-  ExpectRefused(test::IfcText(Wall("#20=IFCLOCALPLACEMENT($,#21);", "#32=IFCEXTRUDEDAREASOLID(#33,$,#34,3.);", "#33=IFCMIRROREDPROFILEDEF(.AREA.,$,#33,$,$);")),
+  ExpectRefused(test::IfcText(Wall("#20=IFCLOCALPLACEMENT($,#21);", "#32=IFCEXTRUDEDAREASOLID(#33,$,#34,3.);",
+                                   "#33=IFCMIRROREDPROFILEDEF(.AREA.,$,#33,$,$);")),
                 DiagnosticKind::kReferenceCycle);
 }
 
@@ -97,8 +103,8 @@ TEST_F(HostileIfc, CyclesAreRefused) {
 TEST_F(HostileIfc, CurvesThatUnfoldWithoutEndAreRefused) {
   std::string profile = "#33=IFCARBITRARYCLOSEDPROFILEDEF(.AREA.,$,#100);\n";
   for (int i = 0; i < 200; i += 2) {
-    profile += fmt::format("#{0}=IFCCOMPOSITECURVE((#{1},#{1}),.F.);\n#{1}=IFCCOMPOSITECURVESEGMENT(.CONTINUOUS.,.T.,#{2});\n", 100 + i, 101 + i,
-                           i < 198 ? 102 + i : 100);
+    profile += fmt::format("#{0}=IFCCOMPOSITECURVE((#{1},#{1}),.F.);\n#{1}=IFCCOMPOSITECURVESEGMENT(.CONTINUOUS.,.T.,#{2});\n", 100 + i,
+                           101 + i, i < 198 ? 102 + i : 100);
   }
   ExpectRefused(test::IfcText(Wall("#20=IFCLOCALPLACEMENT($,#21);", "#32=IFCEXTRUDEDAREASOLID(#33,$,#34,3.);", profile)),
                 DiagnosticKind::kPlanTooComplex);
@@ -113,9 +119,10 @@ TEST_F(HostileIfc, PolygonsOfMillionsOfCornersAreRefused) {
                 DiagnosticKind::kPlanTooComplex);
   std::string references = "#41=IFCPOLYLINE((#42";
   for (int i = 0; i < 200000; ++i) references += i % 2 == 0 ? ",#43" : ",#42";
-  ExpectRefused(test::IfcText(Wall("#20=IFCLOCALPLACEMENT($,#21);", "#32=IFCEXTRUDEDAREASOLID(#33,$,#34,3.);",
-                                   "#33=IFCARBITRARYCLOSEDPROFILEDEF(.AREA.,$,#41);\n#42=IFCCARTESIANPOINT((0.,0.));\n#43=IFCCARTESIANPOINT((1.,0.));\n" +
-                                       references + "));\n")),
+  ExpectRefused(test::IfcText(Wall(
+                    "#20=IFCLOCALPLACEMENT($,#21);", "#32=IFCEXTRUDEDAREASOLID(#33,$,#34,3.);",
+                    "#33=IFCARBITRARYCLOSEDPROFILEDEF(.AREA.,$,#41);\n#42=IFCCARTESIANPOINT((0.,0.));\n#43=IFCCARTESIANPOINT((1.,0.));\n" +
+                        references + "));\n")),
                 DiagnosticKind::kPlanTooComplex);
 }
 
@@ -124,8 +131,9 @@ TEST_F(HostileIfc, PolygonsThatCrossThemselvesEverywhereEndSoon) {
   std::string list = "#40=IFCCARTESIANPOINTLIST2D((";
   for (int i = 0; i < 20000; ++i) list += fmt::format("{}({},{})", i > 0 ? "," : "", i * 7907 % 1009, i * 7919 % 997);
   list += "));\n";
-  const auto plan = Read(test::IfcText(Wall("#20=IFCLOCALPLACEMENT($,#21);", "#32=IFCEXTRUDEDAREASOLID(#33,$,#34,3.);",
-                                            "#33=IFCARBITRARYCLOSEDPROFILEDEF(.AREA.,$,#41);\n#41=IFCINDEXEDPOLYCURVE(#40,$,.F.);\n" + list)));
+  const auto plan =
+      Read(test::IfcText(Wall("#20=IFCLOCALPLACEMENT($,#21);", "#32=IFCEXTRUDEDAREASOLID(#33,$,#34,3.);",
+                              "#33=IFCARBITRARYCLOSEDPROFILEDEF(.AREA.,$,#41);\n#41=IFCINDEXEDPOLYCURVE(#40,$,.F.);\n" + list)));
   ASSERT_TRUE(plan);
   EXPECT_TRUE(plan->elements.empty());
 }
@@ -158,8 +166,9 @@ TEST_F(HostileIfc, WallsOfTooManyOpeningsAreRefused) {
 // As long as they lie apart, their number is no matter: a facade may have hundreds.
 TEST_F(HostileIfc, FiveHundredWindowsInAWallAreCutSoon) {
   constexpr int kWindows = 500;
-  std::string text = Wall("#20=IFCLOCALPLACEMENT($,#21);", "#32=IFCEXTRUDEDAREASOLID(#33,$,#34,3.);",
-                          "#33=IFCRECTANGLEPROFILEDEF(.AREA.,$,#35,750.,0.3);\n#35=IFCAXIS2PLACEMENT2D(#36,$);\n#36=IFCCARTESIANPOINT((375.,0.));");
+  std::string text =
+      Wall("#20=IFCLOCALPLACEMENT($,#21);", "#32=IFCEXTRUDEDAREASOLID(#33,$,#34,3.);",
+           "#33=IFCRECTANGLEPROFILEDEF(.AREA.,$,#35,750.,0.3);\n#35=IFCAXIS2PLACEMENT2D(#36,$);\n#36=IFCCARTESIANPOINT((375.,0.));");
   text +=
       "#60=IFCPRODUCTDEFINITIONSHAPE($,$,(#61));\n#61=IFCSHAPEREPRESENTATION($,'Body','SweptSolid',(#62));\n"
       "#62=IFCEXTRUDEDAREASOLID(#63,$,#34,1.2);\n#63=IFCRECTANGLEPROFILEDEF(.AREA.,$,$,1.,0.5);\n";

@@ -57,7 +57,8 @@ TEST_F(PlacementTest, ChainsStayWithinTheEarth) {
 
 TEST_F(PlacementTest, ScalesOutOfAllRangeAreOne) {
   for (const char* scale : {"0.", "1.E300", "-1.E7"}) {
-    Open(std::string("#10=IFCX(#11);\n#11=IFCCARTESIANTRANSFORMATIONOPERATOR3D($,$,#12,") + scale + ",$);\n#12=IFCCARTESIANPOINT((0.,0.,0.));");
+    Open(std::string("#10=IFCX(#11);\n#11=IFCCARTESIANTRANSFORMATIONOPERATOR3D($,$,#12,") + scale +
+         ",$);\n#12=IFCCARTESIANPOINT((0.,0.,0.));");
     EXPECT_TRUE(PlacementReader(*model_).Operator(Reference()).linear().isIdentity(1e-12)) << scale;
     EXPECT_EQ(diagnostics_.all().back().kind, DiagnosticKind::kBadAttribute);
   }

@@ -52,7 +52,8 @@ TEST_F(ProfileReaderTest, AreasOfParameterizedProfiles) {
 
 TEST_F(ProfileReaderTest, ABandAlongAnArcEndsSquareToItAndHasItsArcs) {
   Open(
-      "#10=IFCCENTERLINEPROFILEDEF(.CURVE.,$,#11,0.2);\n#11=IFCTRIMMEDCURVE(#12,(IFCPARAMETERVALUE(0.)),(IFCPARAMETERVALUE(3.14159265358979)),"
+      "#10=IFCCENTERLINEPROFILEDEF(.CURVE.,$,#11,0.2);\n#11=IFCTRIMMEDCURVE(#12,(IFCPARAMETERVALUE(0.)),(IFCPARAMETERVALUE(3."
+      "14159265358979)),"
       ".T.,.PARAMETER.);\n#12=IFCCIRCLE(#13,4.1);\n#13=IFCAXIS2PLACEMENT2D(#14,$);\n#14=IFCCARTESIANPOINT((0.,0.));");
   const Profile profile = profiles_->Read(Get(10));
   ASSERT_EQ(profile.area.size(), 1u);

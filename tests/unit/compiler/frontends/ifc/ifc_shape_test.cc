@@ -238,7 +238,8 @@ TEST_F(ShapeReaderTest, FarCoordinatesAndHugeAnglesAreBounded) {
 
 TEST_F(ShapeReaderTest, RoundPrimitivesKeepWithinTheTolerance) {
   const std::string at = "#11=IFCAXIS2PLACEMENT3D(#12,$,$);\n#12=IFCCARTESIANPOINT((1.,2.,3.));";
-  const auto check = [&](const std::string& item, double volume_m3, const Eigen::Vector3d& low, const Eigen::Vector3d& high, double round_m2) {
+  const auto check = [&](const std::string& item, double volume_m3, const Eigen::Vector3d& low, const Eigen::Vector3d& high,
+                         double round_m2) {
     SCOPED_TRACE(item);
     const ShapeParts parts = ReadItem("#10=" + item + ";\n" + at, "#10", "CSG");
     ASSERT_EQ(parts.size(), 1u);

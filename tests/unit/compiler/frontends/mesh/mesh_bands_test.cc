@@ -40,7 +40,8 @@ TEST(MeshBands, AreTheSolidBetweenTwoFacesWhicheverWayTheMeshIsTurned) {
 }
 
 TEST(MeshBands, TheFreeSpaceBetweenTwoWallsIsNone) {
-  const auto bands = BandsOf(FacesOf({{{0, 0}, {5, 0}}, {{5, 0.2}, {0, 0.2}}, {{0, 0.5}, {5, 0.5}}, {{5, 0.7}, {0, 0.7}}}), Facing::kOutward);
+  const auto bands =
+      BandsOf(FacesOf({{{0, 0}, {5, 0}}, {{5, 0.2}, {0, 0.2}}, {{0, 0.5}, {5, 0.5}}, {{5, 0.7}, {0, 0.7}}}), Facing::kOutward);
   ASSERT_EQ(bands.size(), 2u);
   ExpectBand(bands[0], 0, 0.2, 0, 5);
   ExpectBand(bands[1], 0.5, 0.7, 0, 5);

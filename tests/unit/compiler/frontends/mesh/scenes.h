@@ -66,7 +66,8 @@ inline void AddRingWithOpening(double inner_m, double thickness_m, double height
     return static_cast<int>(o.solid.vertices.size() - 1);
   };
   const double outer_m = inner_m + thickness_m;
-  const auto quad = [&](int i, double r_m, double z_m, int j, double s_m, double y_m, int k, double t_m, double x_m, int l, double u_m, double w_m) {
+  const auto quad = [&](int i, double r_m, double z_m, int j, double s_m, double y_m, int k, double t_m, double x_m, int l, double u_m,
+                        double w_m) {
     const int a = corner(i, r_m, z_m), b = corner(j, s_m, y_m), c = corner(k, t_m, x_m), d = corner(l, u_m, w_m);
     o.solid.triangles.emplace_back(a, b, c);
     o.solid.triangles.emplace_back(a, c, d);

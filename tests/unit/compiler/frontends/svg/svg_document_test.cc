@@ -47,23 +47,29 @@ TEST(ReadSvgDocument, TurnsYUp) {
 }
 
 TEST(ReadSvgDocument, NestsTransforms) {
-  ExpectPoints(DocumentOf("<g transform='translate(10,0)'><g transform='rotate(90)'><path d='M1 0h1' stroke='red'/></g></g>"), {{10, -1}, {10, -2}});
+  ExpectPoints(DocumentOf("<g transform='translate(10,0)'><g transform='rotate(90)'><path d='M1 0h1' stroke='red'/></g></g>"),
+               {{10, -1}, {10, -2}});
 }
 
 TEST(ReadSvgDocument, PlacesSymbolsByTheirViewBox) {
-  const SvgDocument document = DocumentOf("<defs><symbol id='s' viewBox='0 0 10 10'><line id='l' x1='0' y1='0' x2='10' y2='10' stroke='red'/></symbol></defs>"
-                                          "<use href='#s' x='5' y='5' width='20' height='20'/>");
+  const SvgDocument document = DocumentOf(
+      "<defs><symbol id='s' viewBox='0 0 10 10'><line id='l' x1='0' y1='0' x2='10' y2='10' stroke='red'/></symbol></defs>"
+      "<use href='#s' x='5' y='5' width='20' height='20'/>");
   ExpectPoints(document, {{5, -5}, {25, -25}});
 }
 
 TEST(ReadSvgDocument, NestedViewportsHaveTheirOwnUnits) {
-  ExpectPoints(DocumentOf("<svg x='10' y='20' width='50' height='50' viewBox='0 0 100 100'><path d='M0 0H100' stroke='red'/></svg>"), {{10, -20}, {60, -20}});
+  ExpectPoints(DocumentOf("<svg x='10' y='20' width='50' height='50' viewBox='0 0 100 100'><path d='M0 0H100' stroke='red'/></svg>"),
+               {{10, -20}, {60, -20}});
 }
 
 TEST(ReadSvgDocument, UsesElementsOfTheFileOnly) {
-  const Reading reading = ReadText("<svg><use href='#none'/><use href='other.svg#a'/><g id='a'><use href='#a'/><path d='M0 0H1' stroke='red'/></g></svg>");
+  const Reading reading =
+      ReadText("<svg><use href='#none'/><use href='other.svg#a'/><g id='a'><use href='#a'/><path d='M0 0H1' stroke='red'/></g></svg>");
   ASSERT_TRUE(reading.document);
-  EXPECT_EQ(std::count_if(reading.sink.all().begin(), reading.sink.all().end(), [](const Diagnostic& d) { return d.kind == DiagnosticKind::kUseUnresolved; }), 3);
+  EXPECT_EQ(std::count_if(reading.sink.all().begin(), reading.sink.all().end(),
+                          [](const Diagnostic& d) { return d.kind == DiagnosticKind::kUseUnresolved; }),
+            3);
 }
 
 TEST(ReadSvgDocument, EndsWhereUsesMultiply) {
@@ -98,16 +104,18 @@ TEST(ReadSvgDocument, RefusesWhatIsNoSvg) {
 }
 
 TEST(ReadSvgDocument, DoesNotExpandEntities) {
-  const Reading reading = ReadText("<!DOCTYPE svg [<!ENTITY a 'aaaaaaaaaa'><!ENTITY b '&a;&a;&a;'>]><svg xmlns='&b;'><text>&b;</text></svg>");
+  const Reading reading =
+      ReadText("<!DOCTYPE svg [<!ENTITY a 'aaaaaaaaaa'><!ENTITY b '&a;&a;&a;'>]><svg xmlns='&b;'><text>&b;</text></svg>");
   ASSERT_TRUE(reading.document);
   ASSERT_EQ(reading.document->texts.size(), 1u);
   EXPECT_EQ(reading.document->texts[0].text, "&b;");
 }
 
 TEST(ReadSvgDocument, LeavesOutWhatIsNotDisplayed) {
-  const SvgDocument document = DocumentOf("<style>.off{display:none}</style><g class='off'><path d='M0 0H1' stroke='red'/></g>"
-                                          "<path d='M0 0H1' stroke='red' visibility='hidden'/><path d='M0 0H1' fill='none'/>"
-                                          "<g inkscape:groupmode='layer' inkscape:label='Old' style='display:none'><path d='M0 0H1' stroke='red'/></g>");
+  const SvgDocument document = DocumentOf(
+      "<style>.off{display:none}</style><g class='off'><path d='M0 0H1' stroke='red'/></g>"
+      "<path d='M0 0H1' stroke='red' visibility='hidden'/><path d='M0 0H1' fill='none'/>"
+      "<g inkscape:groupmode='layer' inkscape:label='Old' style='display:none'><path d='M0 0H1' stroke='red'/></g>");
   EXPECT_TRUE(document.shapes.empty());
   EXPECT_TRUE(document.hidden_layers.contains("Old"));
 }
@@ -116,7 +124,8 @@ TEST(ReadSvgDocument, ClipsStraightLines) {
   const std::string clip = "<clipPath id='c'><path d='m 10,10 20,0 0,20 -20,0 z'/></clipPath>";
   ExpectPoints(DocumentOf(clip + "<g clip-path='url(#c)'><path d='M0 20H100' stroke='red'/></g>"), {{10, -20}, {30, -20}});
   EXPECT_TRUE(DocumentOf(clip + "<g clip-path='url(#c)'><path d='M0 50H100' stroke='red'/></g>").shapes.empty());
-  ExpectPoints(DocumentOf(clip + "<g transform='matrix(0,2,2,0,0,0)'><g clip-path='url(#c)'><path d='M0 20H100' stroke='red'/></g></g>"), {{40, -20}, {40, -60}});
+  ExpectPoints(DocumentOf(clip + "<g transform='matrix(0,2,2,0,0,0)'><g clip-path='url(#c)'><path d='M0 20H100' stroke='red'/></g></g>"),
+               {{40, -20}, {40, -60}});
 }
 
 TEST(ReadSvgDocument, StatesTheUnitOnPaper) {
@@ -125,7 +134,9 @@ TEST(ReadSvgDocument, StatesTheUnitOnPaper) {
 }
 
 TEST(ReadSvgDocument, NamesNodesByLabelClassAndId) {
-  const SvgDocument document = DocumentOf("<g inkscape:label='Walls' id='layer1'><g class='Door Swing' id='Exterior_x5F_door'><path id='path12' d='M0 0H1' stroke='red'/></g></g>");
+  const SvgDocument document = DocumentOf(
+      "<g inkscape:label='Walls' id='layer1'><g class='Door Swing' id='Exterior_x5F_door'><path id='path12' d='M0 0H1' "
+      "stroke='red'/></g></g>");
   ASSERT_EQ(document.nodes.size(), 2u);
   EXPECT_EQ(document.nodes[0].names, std::vector<std::string>{"Walls"});
   EXPECT_EQ(document.nodes[1].names, (std::vector<std::string>{"Door", "Swing", "Exterior_door"}));
@@ -133,7 +144,8 @@ TEST(ReadSvgDocument, NamesNodesByLabelClassAndId) {
 }
 
 TEST(ReadSvgDocument, LettersThatJumpAlongTheLineStartATextOfTheirOwn) {
-  const SvgDocument document = DocumentOf("<text font-size='10' x='100 106 112 160 166 40 46 52' y='20'>12A34567</text><text font-size='10' x='0 8 14 20 23'>A 1 B</text>");
+  const SvgDocument document = DocumentOf(
+      "<text font-size='10' x='100 106 112 160 166 40 46 52' y='20'>12A34567</text><text font-size='10' x='0 8 14 20 23'>A 1 B</text>");
   ASSERT_EQ(document.texts.size(), 4u);
   EXPECT_EQ(document.texts[0].text, "12A");
   EXPECT_NEAR(document.texts[0].at.x(), 109, 1e-9);
@@ -145,7 +157,8 @@ TEST(ReadSvgDocument, LettersThatJumpAlongTheLineStartATextOfTheirOwn) {
 }
 
 TEST(ReadSvgDocument, TextsWithPlacesOfTheirOwnStandAlone) {
-  const SvgDocument document = DocumentOf("<text font-size='10' text-anchor='middle'><tspan x='50' y='20'>Living</tspan><tspan x='50' dy='12'>\n room </tspan></text>");
+  const SvgDocument document = DocumentOf(
+      "<text font-size='10' text-anchor='middle'><tspan x='50' y='20'>Living</tspan><tspan x='50' dy='12'>\n room </tspan></text>");
   ASSERT_EQ(document.texts.size(), 2u);
   EXPECT_EQ(document.texts[0].text, "Living");
   EXPECT_EQ(document.texts[1].text, "room");
@@ -154,7 +167,9 @@ TEST(ReadSvgDocument, TextsWithPlacesOfTheirOwnStandAlone) {
 }
 
 TEST(ReadSvgDocument, LeavesOutNumbersBeyondReason) {
-  const Reading reading = ReadText("<svg><path id='p' d='M0 0L1e300 0' stroke='red'/><path d='M0 0 nan 1' stroke='red'/><path transform='spin(2)' d='M0 0H1' stroke='red'/></svg>");
+  const Reading reading = ReadText(
+      "<svg><path id='p' d='M0 0L1e300 0' stroke='red'/><path d='M0 0 nan 1' stroke='red'/><path transform='spin(2)' d='M0 0H1' "
+      "stroke='red'/></svg>");
   ASSERT_TRUE(reading.document);
   EXPECT_TRUE(reading.document->shapes.empty());
   EXPECT_EQ(reading.sink.all().size(), 3u);

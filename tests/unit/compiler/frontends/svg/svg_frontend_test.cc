@@ -34,8 +34,8 @@ std::set<std::string> RoomNames(const AGraph& graph) {
 
 std::string Text(const CompileResult& result) { return DiagnosticsToText(result.diagnostics.all(), "plan.svg", 100); }
 
-// A flat of 8 m by 6 m in CubiCasa's groups, a pixel a centimetre: kitchen and hall on the left, a living room on the right. Walls are 20 cm
-// outside and 10 cm inside; the balcony's space has no walls.
+// A flat of 8 m by 6 m in CubiCasa's groups, a pixel a centimetre: kitchen and hall on the left, a living room on the right. Walls are 20
+// cm outside and 10 cm inside; the balcony's space has no walls.
 constexpr const char* kFlat = R"svg(<?xml version="1.0"?>
 <svg xmlns="http://www.w3.org/2000/svg" width="1000" height="800" viewBox="0 0 1000 800">
 <g id="Model" class="Model v1-1"><g class="Floor"><g id="Floor-1" class="Floorplan Floor-1">
@@ -95,7 +95,8 @@ TEST(SvgFrontend, SaysThatAPageContradictsItsWalls) {
   const CompileResult result = CompileText(text);
   ASSERT_TRUE(result.graph) << Text(result);
   EXPECT_TRUE(Says(result, DiagnosticKind::kUnitContradicted));
-  const auto kitchen = std::find_if(result.graph->rooms.begin(), result.graph->rooms.end(), [](const Room& r) { return r.name == "Kitchen"; });
+  const auto kitchen =
+      std::find_if(result.graph->rooms.begin(), result.graph->rooms.end(), [](const Room& r) { return r.name == "Kitchen"; });
   ASSERT_NE(kitchen, result.graph->rooms.end());
   EXPECT_NEAR(kitchen->area_m2, 8.4, 0.02) << "1:100 of a page of 100 mm";
 }
@@ -118,8 +119,10 @@ TEST(SvgFrontend, ReadsPlainOutlines) {
 }
 
 TEST(SvgFrontend, ReadsInkscapeLayers) {
-  const std::string text = TwoRooms("viewBox='0 0 8500 3400'", "<g inkscape:groupmode='layer' inkscape:label='M\xc3\xb6" "bel' id='layer1'><path stroke='black' d='M1000 200V3200'/></g>"
-                                                               "<g inkscape:groupmode='layer' inkscape:label='W\xc3\xa4nde' id='layer2'>");
+  const std::string text = TwoRooms("viewBox='0 0 8500 3400'",
+                                    "<g inkscape:groupmode='layer' inkscape:label='M\xc3\xb6"
+                                    "bel' id='layer1'><path stroke='black' d='M1000 200V3200'/></g>"
+                                    "<g inkscape:groupmode='layer' inkscape:label='W\xc3\xa4nde' id='layer2'>");
   CompileOptions options;
   options.unit = "mm";
   const CompileResult result = CompileText(text, options);
@@ -128,7 +131,8 @@ TEST(SvgFrontend, ReadsInkscapeLayers) {
 }
 
 TEST(SvgFrontend, ReadsIdsThatIllustratorEscapes) {
-  const std::string text = TwoRooms("width='8500mm' viewBox='0 0 8500 3400'", "<g id='Furniture_x5F_new_1_'><path stroke='black' d='M1000 200V3200'/></g><g id='_x31_2_x5F_Walls'>");
+  const std::string text = TwoRooms("width='8500mm' viewBox='0 0 8500 3400'",
+                                    "<g id='Furniture_x5F_new_1_'><path stroke='black' d='M1000 200V3200'/></g><g id='_x31_2_x5F_Walls'>");
   const CompileResult result = CompileText(text);
   ASSERT_TRUE(result.graph) << Text(result);
   EXPECT_EQ(result.graph->rooms.size(), 2u) << Text(result);
@@ -138,7 +142,8 @@ TEST(SvgFrontend, TakesThickStrokesForWallsAmongThinOnes) {
   const CompileResult result = CompileText(
       "<svg xmlns='http://www.w3.org/2000/svg' width='8m' viewBox='0 0 800 400'><g fill='none' stroke='black' stroke-width='20'>"
       "<path d='M10,10H790V390H10Z'/><path d='M400,10V150M400,240V390'/></g>"
-      "<g fill='none' stroke='gray' stroke-width='1'><path d='M400,150 H490 A90 90 0 0 1 400,240'/><path d='M600,20V380M500 50H700V120H500Z'/></g></svg>");
+      "<g fill='none' stroke='gray' stroke-width='1'><path d='M400,150 H490 A90 90 0 0 1 400,240'/><path d='M600,20V380M500 "
+      "50H700V120H500Z'/></g></svg>");
   ASSERT_TRUE(result.graph) << Text(result);
   ASSERT_EQ(result.graph->rooms.size(), 2u) << Text(result);
   EXPECT_EQ(result.graph->doorways.size(), 1u) << Text(result);

@@ -104,7 +104,8 @@ TEST(ParseSvgPath, SmoothSplinesMirrorTheLastControlPoint) {
   EXPECT_EQ(cubic[0].points, explicit_cubic[0].points);
   const auto quadratic = Outlines("M0 0Q5 10 10 0T20 0"), explicit_quadratic = Outlines("M0 0Q5 10 10 0Q15-10 20 0");
   ASSERT_EQ(quadratic[0].points.size(), explicit_quadratic[0].points.size());
-  for (size_t i = 0; i < quadratic[0].points.size(); ++i) EXPECT_LT((quadratic[0].points[i] - explicit_quadratic[0].points[i]).norm(), 1e-9);
+  for (size_t i = 0; i < quadratic[0].points.size(); ++i)
+    EXPECT_LT((quadratic[0].points[i] - explicit_quadratic[0].points[i]).norm(), 1e-9);
 }
 
 TEST(ParseSvgPath, KeepsWhatStandsBeforeAFault) {

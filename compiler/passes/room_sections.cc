@@ -24,6 +24,15 @@ constexpr size_t kLeastCompared = 16;  // points of a room
 constexpr int kMaxCells = 256;         // along one side of a grid
 constexpr size_t kLeastTriangles = 512;  // that are cut in one go
 
+template <class Job>
+void ForAll(size_t jobs, const SectionOptions& options, const Job& job) {
+  if (jobs >= options.min_parallel) {
+    tbb::parallel_for(size_t{0}, jobs, job);
+  } else {
+    for (size_t i = 0; i < jobs; ++i) job(i);
+  }
+}
+
 bool IsFixed(const Element& e) {
   return e.material != Material::kGlass && e.kind != ElementKind::kDoor && e.kind != ElementKind::kFurniture && !e.doorway.valid();
 }
@@ -221,7 +230,7 @@ std::vector<RoomSections::Found> RoomSections::Find(const AGraph& graph, const s
   const std::vector<Plane> planes = PlanesOf(levels, options_.heights_m);
   const auto parts = PartsOf(graph.mesh.triangles);
   std::vector<Found> out(parts.size());
-  tbb::parallel_for(size_t{0}, parts.size(), [&](size_t i) { out[i] = Cutter(graph, levels, planes, options_).Run(parts[i]); });
+  ForAll(parts.size(), options_, [&](size_t i) { out[i] = Cutter(graph, levels, planes, options_).Run(parts[i]); });
   return out;
 }
 
@@ -245,7 +254,7 @@ RoomSections::RoomSections(const AGraph& graph, const std::vector<bool>& wanted,
     cuts_.insert(cuts_.end(), part.cuts.begin(), part.cuts.end());
     part = {};
   }
-  tbb::parallel_for(size_t{0}, grids_.size(), [this](size_t r) { BuildGrid(r); });
+  ForAll(grids_.size(), options_, [this](size_t r) { BuildGrid(r); });
 }
 
 void RoomSections::BuildGrid(size_t room) {

@@ -1,7 +1,6 @@
 #include "compiler/passes/room_sections.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include <numeric>
 #include <optional>
 
+#include "compiler/passes/for_each_job.h"
 #include "compiler/passes/polygon.h"
 
 namespace plumb::compiler {
@@ -23,15 +23,6 @@ constexpr double kMinSlope = 0.1;      // horizontal part of the normal of a fac
 constexpr size_t kLeastCompared = 16;  // points of a room
 constexpr int kMaxCells = 256;         // along one side of a grid
 constexpr size_t kLeastTriangles = 512;  // that are cut in one go
-
-template <class Job>
-void ForAll(size_t jobs, const SectionOptions& options, const Job& job) {
-  if (jobs >= options.min_parallel) {
-    tbb::parallel_for(size_t{0}, jobs, job);
-  } else {
-    for (size_t i = 0; i < jobs; ++i) job(i);
-  }
-}
 
 bool IsFixed(const Element& e) {
   return e.material != Material::kGlass && e.kind != ElementKind::kDoor && e.kind != ElementKind::kFurniture && !e.doorway.valid();
@@ -230,7 +221,7 @@ std::vector<RoomSections::Found> RoomSections::Find(const AGraph& graph, const s
   const std::vector<Plane> planes = PlanesOf(levels, options_.heights_m);
   const auto parts = PartsOf(graph.mesh.triangles);
   std::vector<Found> out(parts.size());
-  ForAll(parts.size(), options_, [&](size_t i) { out[i] = Cutter(graph, levels, planes, options_).Run(parts[i]); });
+  ForEachJob(parts.size(), options_.min_parallel, [&](size_t i) { out[i] = Cutter(graph, levels, planes, options_).Run(parts[i]); });
   return out;
 }
 
@@ -254,7 +245,7 @@ RoomSections::RoomSections(const AGraph& graph, const std::vector<bool>& wanted,
     cuts_.insert(cuts_.end(), part.cuts.begin(), part.cuts.end());
     part = {};
   }
-  ForAll(grids_.size(), options_, [this](size_t r) { BuildGrid(r); });
+  ForEachJob(grids_.size(), options_.min_parallel, [this](size_t r) { BuildGrid(r); });
 }
 
 void RoomSections::BuildGrid(size_t room) {

@@ -10,6 +10,12 @@
 #include <utility>
 
 namespace plumb::benchmarks {
+
+using runtime::MapSurface;
+using runtime::Scan;
+using runtime::SGraph;
+using runtime::SurfaceKind;
+
 namespace {
 
 constexpr double kMinLength_m = 1.0, kSameDirection_rad = 0.2, kSamePlane_m = 0.15, kMinShare = 0.5;

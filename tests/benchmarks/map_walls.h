@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
+#include "runtime/mapping/sgraph.h"
+#include "runtime/sources/recording.h"
 #include "schema/agraph.h"
-#include "schema/scan.h"
-#include "schema/sgraph.h"
 #include "tools/simulate/simulate.h"
 
 namespace plumb::benchmarks {
@@ -29,9 +29,9 @@ struct WallFace {
 [[nodiscard]] std::vector<WallFace> BuiltFaces(const AGraph& plan, const tools::SimulateSummary& simulated);
 
 // Counts a scan for the parts of the built faces that it saw.
-void CountSeen(const Scan& deskewed, const Eigen::Isometry3d& T_plan_lidar, std::vector<WallFace>& built);
+void CountSeen(const runtime::Scan& deskewed, const Eigen::Isometry3d& T_plan_lidar, std::vector<WallFace>& built);
 
-[[nodiscard]] std::vector<WallFace> MappedFaces(const SGraph& map, const Eigen::Isometry3d& T_plan_map);
+[[nodiscard]] std::vector<WallFace> MappedFaces(const runtime::SGraph& map, const Eigen::Isometry3d& T_plan_map);
 
 struct WallScore {
   int walls = 0, found = 0, twice = 0;
@@ -39,6 +39,6 @@ struct WallScore {
 };
 
 // Names the walls that are missed or mapped twice on stderr.
-[[nodiscard]] WallScore ScoreWalls(const std::vector<WallFace>& built, const std::vector<WallFace>& mapped, const SGraph& map);
+[[nodiscard]] WallScore ScoreWalls(const std::vector<WallFace>& built, const std::vector<WallFace>& mapped, const runtime::SGraph& map);
 
 }  // namespace plumb::benchmarks

@@ -10,6 +10,7 @@
 #include <set>
 
 #include "compiler/frontends/drawing/curve_edges.h"
+#include "compiler/frontends/drawing/loose_ends.h"
 #include "compiler/frontends/drawing/plane.h"
 #include "compiler/frontends/drawing/single_lines.h"
 #include "compiler/geometry/box_tree.h"
@@ -19,7 +20,6 @@ namespace plumb::compiler {
 namespace {
 
 constexpr uint32_t kClosing = 0xfffffffeu;  // source of a line that the drawing does not have
-constexpr double kParallel = 0.97, kSquare = 0.35, kBeside = 0.05;
 constexpr double kBeside_m = 0.02;   // from a room's outline into the room
 constexpr double kAround_m = 0.1;    // ... to the walls around it
 constexpr double kSampled_m = 0.4;  // between points where a face is measured
@@ -50,8 +50,7 @@ class MassFinder {
 
   std::optional<WallMass> Run() {
     CollectLines();
-    if (!Build()) return std::nullopt;
-    if (const size_t before = lines_.size(); AddClosings(), lines_.size() > before && !Build()) return std::nullopt;
+    if (!Build() || !Close()) return std::nullopt;
     Classify();
     if (out_.single_lines) {
       const double single_m = out_.single_m;
@@ -85,100 +84,14 @@ class MassFinder {
     return map.has_value();
   }
 
-  struct LooseEnd {
-    uint32_t vertex;
-    Eigen::Vector2d at, out;  // the line's direction as it leaves
-    double length_m;
-    bool used = false;
-  };
-
-  std::vector<LooseEnd> LooseEnds() const {
-    std::vector<LooseEnd> ends;
-    for (uint32_t h = 0; h < Map().num_half_edges(); ++h) {
-      if (Map().DegreeOf(Map().To(h)) != 1) continue;
-      const Eigen::Vector2d d = Map().ToPoint(h) - Map().FromPoint(h);
-      ends.push_back({Map().To(h), Map().ToPoint(h), d.normalized(), d.norm()});
-    }
-    return ends;
-  }
-
-  void AddLine(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { lines_.push_back({a, b, kClosing}); }
-
-  // The nearest other end that `fits`, for which this one is the nearest as well.
-  template <class Fits>
-  void JoinNearest(std::vector<LooseEnd>& ends, double reach_m, const Fits& fits) {
-    std::vector<Eigen::AlignedBox2d> boxes;
-    for (const LooseEnd& e : ends) boxes.emplace_back(e.at);
-    const BoxTree<2> tree(std::move(boxes));
-    std::vector<uint32_t> nearest(ends.size(), kNone);
-    for (uint32_t i = 0; i < ends.size(); ++i) {
-      if (ends[i].used) continue;
-      const Eigen::Vector2d reach = Eigen::Vector2d::Constant(reach_m);
-      double best_m = reach_m;
-      tree.ForEachIn({ends[i].at - reach, ends[i].at + reach}, [&](uint32_t j) {
-        if (j == i || ends[j].used || !fits(ends[i], ends[j])) return;
-        const double distance = (ends[j].at - ends[i].at).norm();
-        if (distance < best_m || (distance == best_m && j < nearest[i])) best_m = distance, nearest[i] = j;
-      });
-    }
-    for (uint32_t i = 0; i < ends.size(); ++i) {
-      const uint32_t j = nearest[i];
-      if (j == kNone || j < i || nearest[j] != i || ends[i].used || ends[j].used) continue;
-      ends[i].used = ends[j].used = true;
-      AddLine(ends[i].at, ends[j].at);
-    }
-  }
-
-  void AddClosings() {
-    std::vector<LooseEnd> ends = LooseEnds();
-    ExtendToLines(ends);
-    JoinNearest(ends, options_.max_thickness_m, [&](const LooseEnd& a, const LooseEnd& b) {
-      const Eigen::Vector2d d = b.at - a.at;
-      return a.out.dot(b.out) > kParallel && std::abs(d.dot(a.out)) <= kSquare * d.norm() &&
-             std::min(a.length_m, b.length_m) > 0.5 * d.norm();
-    });
-    CapAtCorners(ends);
-    JoinNearest(ends, options_.max_break_m, [](const LooseEnd&, const LooseEnd&) { return true; });
-  }
-
-  // The other line of the wall ends beside this one as well, but another wall goes on from there.
-  void CapAtCorners(std::vector<LooseEnd>& ends) {
-    const Eigen::Vector2d reach = Eigen::Vector2d::Constant(options_.max_thickness_m);
-    for (LooseEnd& e : ends) {
-      if (e.used) continue;
-      std::pair<double, uint32_t> best(options_.max_thickness_m, kNone);
-      Map().VisitEdges({e.at - reach, e.at + reach}, [&](uint32_t edge) {
-        for (const uint32_t h : {2 * edge, 2 * edge + 1}) {
-          const Eigen::Vector2d d = Map().ToPoint(h) - e.at, line = Map().ToPoint(h) - Map().FromPoint(h);
-          const bool beside = d.norm() > options_.min_thickness_m && std::abs(d.dot(e.out)) <= kBeside * d.norm();
-          if (!beside || Map().To(h) == e.vertex || line.dot(e.out) < kParallel * line.norm() || GoesOn(h)) continue;
-          best = std::min(best, {d.norm(), Map().To(h)});
-        }
-      });
-      if (best.second == kNone || e.length_m < 0.5 * best.first) continue;
-      e.used = true;
-      AddLine(e.at, Map().vertices()[best.second]);
-    }
-  }
-
-  // Straight on, in another edge of the line.
-  bool GoesOn(uint32_t half_edge) const {
-    const Eigen::Vector2d d = (Map().ToPoint(half_edge) - Map().FromPoint(half_edge)).normalized();
-    for (uint32_t h = Map().Next(half_edge); h != (half_edge ^ 1u); h = Map().Next(h ^ 1u)) {
-      if ((Map().ToPoint(h) - Map().FromPoint(h)).normalized().dot(d) > kParallel) return true;
-    }
-    return false;
-  }
-
-  void ExtendToLines(std::vector<LooseEnd>& ends) {
-    for (LooseEnd& e : ends) {
-      const double reach = std::min(options_.max_undershoot_m, 0.5 * e.length_m);
-      const auto other = [&](uint32_t edge) { return Map().edges()[edge].a != e.vertex && Map().edges()[edge].b != e.vertex; };
-      const std::optional<RayHit> hit = Map().Cast(e.at, e.out, reach, other);
-      if (!hit) continue;
-      e.used = true;
-      AddLine(e.at, e.at + (hit->t_m + options_.join_m) * e.out);
-    }
+  // False: too many crossings.
+  bool Close() {
+    out_.heals = FindHeals(Map(), options_);
+    for (const Heal& heal : out_.heals) lines_.push_back({heal.from, heal.to, kClosing});
+    if (!out_.heals.empty() && !Build()) return false;
+    const auto closings = FindClosings(Map(), options_);
+    for (const auto& [from, to] : closings) lines_.push_back({from, to, kClosing});
+    return closings.empty() || Build();
   }
 
   // How far the other side of the face is across from points of its boundary.

@@ -127,7 +127,7 @@ class MassFinder {
     out_.is_wall.assign(Map().num_faces(), false);
     for (uint32_t f = 1; f < Map().num_faces(); ++f) out_.is_wall[f] = median[f] > 0 && median[f] <= limit;
     MarkFilled();
-    MarkPiers();
+    MarkPiers(median);
     ClearRooms();
     CountSingleLines();
   }
@@ -165,27 +165,32 @@ class MassFinder {
   }
 
   // Outlines with free space around them; the outline of a room has walls around it.
-  void MarkPiers() {
+  void MarkPiers(const std::vector<double>& width_m) {
     for (uint32_t f = 1; f < Map().num_faces(); ++f) {
-      if (!out_.is_wall[f] && Map().LoopsOf(f).size() == 1 && IsPier(f)) out_.is_wall[f] = true;
+      if (!out_.is_wall[f] && IsPier(f, width_m[f])) out_.is_wall[f] = true;
     }
   }
 
-  bool IsPier(uint32_t face) const {
+  bool IsPier(uint32_t face, double width_m) const {
     const uint32_t start = Map().LoopsOf(face)[0], source = Map().edges()[start / 2].source;
     double free_m = 0, length_m = 0;
     bool one_outline = source < drawing_.paths.size() && drawing_.paths[source].closed;
-    uint32_t h = start;
-    do {
-      const LineMap::Edge& edge = Map().edges()[h / 2];
-      if (edge.source < drawing_.paths.size() && drawing_.paths[edge.source].role == LineRole::kAny) return false;
-      const double length = (Map().ToPoint(h) - Map().FromPoint(h)).norm();
-      one_outline = one_outline && edge.source == source;
-      length_m += length;
-      if (!out_.is_wall[Map().FaceOf(h ^ 1u)]) free_m += length;
-      h = Map().Next(h);
-    } while (h != start);
-    return 2 * free_m > length_m && LesserSide(Map().RingAt(start)) <= (one_outline ? options_.max_pier_m : options_.max_loose_pier_m);
+    for (const uint32_t loop : Map().LoopsOf(face)) {
+      uint32_t h = loop;
+      do {
+        const LineMap::Edge& edge = Map().edges()[h / 2];
+        if (edge.source < drawing_.paths.size() && drawing_.paths[edge.source].role == LineRole::kAny) return false;
+        const double length = (Map().ToPoint(h) - Map().FromPoint(h)).norm();
+        one_outline = one_outline && edge.source == source;
+        length_m += length;
+        if (!out_.is_wall[Map().FaceOf(h ^ 1u)]) free_m += length;
+        h = Map().Next(h);
+      } while (h != loop);
+    }
+    if (2 * free_m <= length_m) return false;
+    if (width_m > 0 && width_m <= options_.max_thickness_m) return true;  // a wall much thicker than most
+    return Map().LoopsOf(face).size() == 1 &&
+           LesserSide(Map().RingAt(start)) <= (one_outline ? options_.max_pier_m : options_.max_loose_pier_m);
   }
 
   bool IsSingle(uint32_t e) const {

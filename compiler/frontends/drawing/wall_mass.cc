@@ -123,7 +123,7 @@ class MassFinder {
       for (const auto& w : widths[f]) typical.push_back({median[f], w.weight_m});
     }
     out_.typical_thickness_m = WeightedMedian(typical);
-    const double limit = std::min(options_.max_thickness_m, std::max(0.3, 2 * out_.typical_thickness_m));
+    const double limit = out_.ThickestUsual_m(options_);
     out_.is_wall.assign(Map().num_faces(), false);
     for (uint32_t f = 1; f < Map().num_faces(); ++f) out_.is_wall[f] = median[f] > 0 && median[f] <= limit;
     MarkFilled();

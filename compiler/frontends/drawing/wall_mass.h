@@ -1,6 +1,7 @@
 // Which faces between drawn lines are the material of walls.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -44,6 +45,10 @@ struct WallMass {
   double typical_thickness_m = 0;  // 0: no face is a wall
   double single_m = 0;           // length of lines that have no partner
   bool single_lines = false;     // they were given a thickness
+  // What is thicker than this must have more to show for itself to be a wall.
+  [[nodiscard]] double ThickestUsual_m(const MassOptions& options) const {
+    return std::min(options.max_thickness_m, std::max(0.3, 2 * typical_thickness_m));
+  }
   // Half-edges with wall on the left and none on the right.
   [[nodiscard]] bool IsBoundary(uint32_t half_edge) const { return is_wall[map.FaceOf(half_edge)] && !is_wall[map.FaceOf(half_edge ^ 1u)]; }
   [[nodiscard]] bool EdgeIsBoundary(uint32_t edge) const { return IsBoundary(2 * edge) || IsBoundary(2 * edge + 1); }

@@ -46,9 +46,7 @@ class OpenOutlineFinder {
 
   // A line of walls with free space on both sides.
   bool IsOpen(uint32_t e) const {
-    const uint32_t source = map_.edges()[e].source;
-    return source < drawing_.paths.size() && drawing_.paths[source].role == LineRole::kWall && !mass_.is_wall[map_.FaceOf(2 * e)] &&
-           !mass_.is_wall[map_.FaceOf(2 * e + 1)];
+    return mass_.IsSingle(e, drawing_.paths.size()) && drawing_.paths[map_.edges()[e].source].role == LineRole::kWall;
   }
 
   std::optional<uint32_t> PartnerOf(uint32_t e) const {
@@ -66,6 +64,7 @@ class OpenOutlineFinder {
 
   OpenOutline Describe(const std::vector<uint32_t>& edges) const {
     OpenOutline out;
+    out.edges = edges;
     uint32_t longest = edges[0];
     for (const uint32_t e : edges) {
       out.length_m += LengthOf(e);

@@ -10,6 +10,7 @@ namespace plumb::compiler {
 
 struct OpenOutline {
   double length_m = 0;  // of the lines that face each other as the two sides of a wall do
+  std::vector<uint32_t> edges;  // those lines, in the map
   uint32_t path = 0;    // of the longest of them, in the drawing
   Eigen::Vector2d at = Eigen::Vector2d::Zero();  // where it ends openly, else its middle
 };

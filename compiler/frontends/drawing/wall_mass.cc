@@ -193,17 +193,12 @@ class MassFinder {
            LesserSide(Map().RingAt(start)) <= (one_outline ? options_.max_pier_m : options_.max_loose_pier_m);
   }
 
-  bool IsSingle(uint32_t e) const {
-    const uint32_t source = Map().edges()[e].source;
-    return source < drawing_.paths.size() && !out_.is_wall[Map().FaceOf(2 * e)] && !out_.is_wall[Map().FaceOf(2 * e + 1)];
-  }
-
   void CountSingleLines() {
     double bounding_m = 0;
     out_.single_m = 0;
     for (uint32_t e = 0; e < Map().edges().size(); ++e) {
       const double length = (Map().ToPoint(2 * e) - Map().FromPoint(2 * e)).norm();
-      if (IsSingle(e)) out_.single_m += length;
+      if (out_.IsSingle(e, drawing_.paths.size())) out_.single_m += length;
       else bounding_m += length;
     }
     out_.single_lines = out_.single_m > 0 && bounding_m <= options_.max_double_share * (bounding_m + out_.single_m);
@@ -211,7 +206,7 @@ class MassFinder {
 
   void AddSingleLines() {
     std::vector<bool> is_single;
-    for (uint32_t e = 0; e < Map().edges().size(); ++e) is_single.push_back(IsSingle(e));
+    for (uint32_t e = 0; e < Map().edges().size(); ++e) is_single.push_back(out_.IsSingle(e, drawing_.paths.size()));
     WidenedLines widened = WidenSingleLines(Map(), is_single, ArcsOf(drawing_, paths_), options_);
     lines_ = std::move(widened.lines);
     std::move(widened.outlines.begin(), widened.outlines.end(), std::back_inserter(fills_));

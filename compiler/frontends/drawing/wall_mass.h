@@ -45,6 +45,10 @@ struct WallMass {
   double typical_thickness_m = 0;  // 0: no face is a wall
   double single_m = 0;           // length of lines that have no partner
   bool single_lines = false;     // they were given a thickness
+  // Drawn (there are `paths` of them), with no wall on either side.
+  [[nodiscard]] bool IsSingle(uint32_t edge, size_t paths) const {
+    return map.edges()[edge].source < paths && !is_wall[map.FaceOf(2 * edge)] && !is_wall[map.FaceOf(2 * edge + 1)];
+  }
   // What is thicker than this must have more to show for itself to be a wall.
   [[nodiscard]] double ThickestUsual_m(const MassOptions& options) const {
     return std::min(options.max_thickness_m, std::max(0.3, 2 * typical_thickness_m));

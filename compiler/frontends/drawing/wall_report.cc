@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <string>
+#include <vector>
 
 #include "compiler/frontends/drawing/open_outlines.h"
 
@@ -42,8 +43,10 @@ void ReportHeals(const Drawing& drawing, const WallMass& mass, DiagnosticSink& s
   }
 }
 
-void ReportOpenOutlines(const Drawing& drawing, const WallMass& mass, const MassOptions& options, DiagnosticSink& sink) {
+// Marks the lines by edge.
+void ReportOpenOutlines(const Drawing& drawing, const WallMass& mass, const MassOptions& options, DiagnosticSink& sink, std::vector<bool>& is_told) {
   for (const OpenOutline& open : FindOpenOutlines(drawing, mass, options)) {
+    for (const uint32_t e : open.edges) is_told[e] = true;
     sink.Emit(DiagnosticKind::kOutlineOpen, LocationOf(drawing, open.path),
               fmt::format("{:.1f} m of lines that lie beside each other as the sides of walls do enclose no wall; their outline is open about "
                           "{} m",
@@ -52,19 +55,21 @@ void ReportOpenOutlines(const Drawing& drawing, const WallMass& mass, const Mass
   }
 }
 
-// Of the lines on both of whose sides no wall is, the longest.
-void ReportWithoutPartner(const Drawing& drawing, const WallMass& mass, const MassOptions& options, DiagnosticSink& sink) {
-  double longest_m = 0;
+// Other lines on both of whose sides no wall is, with the longest.
+void ReportWithoutPartner(const Drawing& drawing, const WallMass& mass, const MassOptions& options, const std::vector<bool>& is_told,
+                          DiagnosticSink& sink) {
+  double longest_m = 0, sum_m = 0;
   uint32_t longest = 0;
   for (uint32_t e = 0; e < mass.map.edges().size(); ++e) {
-    if (mass.map.edges()[e].source >= drawing.paths.size() || mass.is_wall[mass.map.FaceOf(2 * e)] || mass.is_wall[mass.map.FaceOf(2 * e + 1)])
-      continue;
+    if (!mass.IsSingle(e, drawing.paths.size()) || is_told[e]) continue;
     const double length_m = (mass.map.ToPoint(2 * e) - mass.map.FromPoint(2 * e)).norm();
+    sum_m += length_m;
     if (length_m > longest_m) longest_m = length_m, longest = e;
   }
+  if (sum_m <= options.min_single_m) return;
   sink.Emit(DiagnosticKind::kLinesWithoutPartner, LocationOf(drawing, mass.map.edges()[longest].source),
             fmt::format("{:.1f} m of lines have no parallel partner within {:.2f} m and are taken for no walls; the longest goes from {} to {} m",
-                        mass.single_m, options.max_thickness_m, Place(mass.map.FromPoint(2 * longest)), Place(mass.map.ToPoint(2 * longest))));
+                        sum_m, options.max_thickness_m, Place(mass.map.FromPoint(2 * longest)), Place(mass.map.ToPoint(2 * longest))));
 }
 
 }  // namespace
@@ -77,8 +82,9 @@ void ReportWalls(const Drawing& drawing, const WallMass& mass, const MassOptions
                           options.single_line_thickness_m));
     return;
   }
-  ReportOpenOutlines(drawing, mass, options, sink);
-  if (mass.single_m > options.min_single_m) ReportWithoutPartner(drawing, mass, options, sink);
+  std::vector<bool> is_told(mass.map.edges().size(), false);
+  ReportOpenOutlines(drawing, mass, options, sink, is_told);
+  ReportWithoutPartner(drawing, mass, options, is_told, sink);
 }
 
 }  // namespace plumb::compiler

@@ -64,7 +64,7 @@ class DraftingErrors : public testing::Test {
     return i;
   }
 
-  void ExpectTheHouse(const std::vector<DrawnLine>& lines, const std::string& what) {
+  CompileResult CompileLines(const std::vector<DrawnLine>& lines) {
     std::string text = before_;
     for (const DrawnLine& line : lines) {
       std::ostringstream out;
@@ -74,8 +74,12 @@ class DraftingErrors : public testing::Test {
       text += out.str();
     }
     const std::string path = folder_ / "house.dxf";
-    ASSERT_TRUE(WriteFileAtomically(path, std::string_view(text + after_)));
-    const CompileResult result = Compile(path);
+    EXPECT_TRUE(WriteFileAtomically(path, std::string_view(text + after_)));
+    return Compile(path);
+  }
+
+  void ExpectTheHouse(const std::vector<DrawnLine>& lines, const std::string& what) {
+    const CompileResult result = CompileLines(lines);
     ASSERT_TRUE(result.graph) << what;
     EXPECT_EQ(result.graph->rooms.size(), 5u) << what;
     EXPECT_EQ(result.graph->doorways.size(), 7u) << what;
@@ -123,6 +127,38 @@ TEST_F(DraftingErrors, EndsThatMissByMillimetresMeet) {
     }
   }
   EXPECT_GT(turn, 300u);
+}
+
+TEST_F(DraftingErrors, EndsOfWallsMayBeAskew) {
+  for (size_t i = 0; i < lines_.size(); ++i) {
+    const auto& at = lines_[i].at;
+    if (lines_[i].layer != "WAND" || std::hypot(at[2] - at[0], at[3] - at[1]) > 400 * kUnitsPerMm) continue;
+    for (size_t k = 0; k < 4; ++k) {
+      for (const double shift_mm : {-20.0, 20.0}) {
+        std::vector<DrawnLine> lines = lines_;
+        lines[i].at[k] += shift_mm * kUnitsPerMm;
+        ExpectTheHouse(lines, "line " + std::to_string(i) + ", number " + std::to_string(k) + " by " + std::to_string(shift_mm) + " mm");
+      }
+    }
+  }
+}
+
+// One side of a wall ends half a metre before its corner: the wall cannot be told, which is said with the place.
+TEST_F(DraftingErrors, AnOutlineThatStaysOpenIsAWarningWithItsPlace) {
+  std::vector<DrawnLine> lines = lines_;
+  for (DrawnLine& line : lines) {
+    if (line.layer == "WAND" && line.at == std::array<double, 4>{705.75, 300, 424, 300}) line.at[2] += 50;
+  }
+  const CompileResult result = CompileLines(lines);
+  ASSERT_TRUE(result.graph);
+  ASSERT_LT(result.graph->rooms.size(), 5u) << "else there is nothing to warn of";
+  size_t warnings = 0;
+  for (const Diagnostic& d : result.diagnostics.all()) {
+    if (d.kind != DiagnosticKind::kOutlineOpen) continue;
+    ++warnings;
+    EXPECT_GT(d.location.line, 0u);
+  }
+  EXPECT_GE(warnings, 1u);
 }
 
 TEST_F(DraftingErrors, WallsThatAreTurnedALittleStayWalls) {

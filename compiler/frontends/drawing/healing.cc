@@ -12,6 +12,7 @@ namespace plumb::compiler {
 namespace {
 
 constexpr double kParallel = 0.97;
+constexpr double kAtEnd = 1.5;  // an end that is no more than this times as far as its line is what is meant
 constexpr std::array<double, 2> kProbes_m = {0.1, 1.0};  // from the end to where the wall's thickness is looked for
 
 // What an end may be meant to meet: another loose end, or a place on a line.
@@ -72,13 +73,16 @@ class Healer {
       const Eigen::Vector2d nearest = NearestOnSegment(e.at, from, to);
       const double distance_m = (nearest - e.at).norm();
       if (distance_m > reach_m_[i]) return;
-      candidates_.push_back({distance_m, i, kNone, edge, nearest});
+      bool at_end = false;  // rather than the place on the line that is nearest
       for (const uint32_t vertex : {a, b}) {
         const uint32_t other = end_at_[vertex];
-        if (other == kNone || other < i) continue;  // of a pair the first has it
+        if (other == kNone) continue;
         const double apart_m = (ends_[other].at - e.at).norm();
-        if (apart_m <= std::min(reach_m_[i], reach_m_[other])) candidates_.push_back({apart_m, i, other, edge, ends_[other].at});
+        if (apart_m > std::min(reach_m_[i], reach_m_[other])) continue;
+        at_end = at_end || apart_m <= kAtEnd * distance_m;
+        if (other > i) candidates_.push_back({apart_m, i, other, edge, ends_[other].at});  // of a pair the first has it
       }
+      if (!at_end) candidates_.push_back({distance_m, i, kNone, edge, nearest});
     });
   }
 

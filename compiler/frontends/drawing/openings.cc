@@ -23,6 +23,7 @@ constexpr double kOff_m = 1e-4;
 constexpr double kAgainst = 0.96;    // cosine between sides that face each other
 constexpr double kSkewEnds = 0.87;   // ... between ends of walls: the two lines of a wall often end askew
 constexpr double kSquareEnd = 0.9995;  // ... between a wall's sides, and between them and the normal of its end: 1.8 degrees
+constexpr double kSlipEnd = 0.96;      // ends that are more askew are drawn so
 constexpr double kMinEnd_m = 0.03;   // narrower ends are no walls
 constexpr double kBeyond_m = 0.15;   // from the faces of a wall into the rooms beside it
 constexpr double kFrame_m = 0.2;  // a frame's width and a bit
@@ -60,7 +61,7 @@ class OpeningFinder {
   }
 
  private:
-  // Square to the end; where it is drawn askew, along the wall.
+  // Square to the end; where it is a little askew, by a slip of the pen, along the wall.
   Eigen::Vector2d OutOf(uint32_t end) const {
     const auto& sides = outline_.sides();
     const Side &s = sides[end], &before = sides[s.prev], &after = sides[s.next];
@@ -68,7 +69,7 @@ class OpeningFinder {
     const bool between_sides = before.along().dot(after.along()) < -kSquareEnd;
     if (!between_sides || std::max(before.length_m(), after.length_m()) < s.length_m()) return square;
     const Eigen::Vector2d wall = before.length_m() > after.length_m() ? before.along() : Eigen::Vector2d(-after.along());
-    return wall.dot(square) > kSquareEnd ? square : wall;
+    return wall.dot(square) > kSquareEnd || wall.dot(square) < kSlipEnd ? square : wall;
   }
 
   // Across the gap in front of an end of a wall.

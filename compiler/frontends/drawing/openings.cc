@@ -66,8 +66,9 @@ class OpeningFinder {
     const auto& sides = outline_.sides();
     const Side &s = sides[end], &before = sides[s.prev], &after = sides[s.next];
     const Eigen::Vector2d square = -Perp(s.along());
-    const bool between_sides = before.along().dot(after.along()) < -kSquareEnd;
-    if (!between_sides || std::max(before.length_m(), after.length_m()) < s.length_m()) return square;
+    // A cap over two lines of which one ends early says nothing about where the wall goes on.
+    const bool is_drawn = s.source < drawing_.paths.size(), between_sides = before.along().dot(after.along()) < -kSquareEnd;
+    if (!is_drawn || !between_sides || std::max(before.length_m(), after.length_m()) < s.length_m()) return square;
     const Eigen::Vector2d wall = before.length_m() > after.length_m() ? before.along() : Eigen::Vector2d(-after.along());
     return wall.dot(square) > kSquareEnd || wall.dot(square) < kSlipEnd ? square : wall;
   }

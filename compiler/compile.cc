@@ -19,8 +19,10 @@
 #include "compiler/frontends/svg/svg_frontend.h"
 #include "compiler/passes/alias_forecast.h"
 #include "compiler/passes/build_agraph.h"
+#include "compiler/source/sha256.h"
 #include "compiler/source/source.h"
 #include "compiler/validate_graph.h"
+#include "schema/source_paths.h"
 
 namespace plumb::compiler {
 namespace {
@@ -71,7 +73,7 @@ void ReportHeights(const HeightOptions& heights, DiagnosticSink& sink) {
 
 bool IsDrawing(SourceFormat format) { return format == SourceFormat::kDxf || format == SourceFormat::kSvg; }
 
-// One drawing more of a plan, whose source is the first one.
+// One drawing more of a plan. Its source names all of them, and its hash changes with each.
 bool AddDrawing(const Source& source, const StoreyDrawing& drawing, const DrawingFileOptions& options, PlanIr& plan, DiagnosticSink& sink) {
   const PlanStorey storey{{}, drawing.name, {}, drawing.elevation_m};
   if (!IsDrawing(source.format)) {
@@ -82,10 +84,14 @@ bool AddDrawing(const Source& source, const StoreyDrawing& drawing, const Drawin
   const bool read =
       source.format == SourceFormat::kSvg ? AppendSvg(source, storey, options, plan, sink) : AppendDxf(source, storey, options, plan, sink);
   if (!read) return false;
-  if (!plan.source_path.empty()) return true;
-  plan.source_path = source.path;
-  plan.source_format = SchemaName(source.format);
-  plan.source_sha256 = source.sha256;
+  if (plan.source_path.empty()) {
+    plan.source_path = source.path;
+    plan.source_format = SchemaName(source.format);
+    plan.source_sha256 = source.sha256;
+    return true;
+  }
+  plan.source_path += std::string(kBetweenSourcePaths) + source.path;
+  plan.source_sha256 = Sha256Hex(plan.source_sha256 + source.sha256);
   return true;
 }
 

@@ -75,7 +75,10 @@ class Validator {
     where.guid = guid;
     sink_.Emit(kind, where, std::move(message));
   }
-  std::string NameOf(size_t room) const { return fmt::format("room {} `{}`", room, graph_.rooms[room].name); }
+  std::string NameOf(size_t room) const { return NameOf("room", room, graph_.rooms[room].name); }
+  static std::string NameOf(const char* what, size_t i, const std::string& name) {
+    return name.empty() ? fmt::format("{} {}", what, i) : fmt::format("{} {} `{}`", what, i, name);
+  }
 
   // True if there is enough wall across the longest one; false also where the storey has no wall. Curved walls face every way.
   bool FixesPosition(StoreyId storey) {
@@ -194,14 +197,14 @@ class Validator {
   template <class Node>
   void CheckOnWall(const char* what, size_t i, const Node& node) {
     if (!node.wall.valid()) {
-      Emit(DiagnosticKind::kOpeningOffWall, node.guid, fmt::format("{} {} `{}` has no wall", what, i, node.name));
+      Emit(DiagnosticKind::kOpeningOffWall, node.guid, fmt::format("{} has no wall", NameOf(what, i, node.name)));
       return;
     }
     const double distance = DistanceToWall(node.wall, node.position.template head<2>()),
                  thickness = graph_.walls[node.wall.index()].thickness_m;
     if (distance <= thickness + kOpeningSlack_m) return;
     Emit(DiagnosticKind::kOpeningOffWall, node.guid,
-         fmt::format("{} {} `{}` lies {:.3f} m off its wall, which is {:.3f} m thick", what, i, node.name, distance, thickness));
+         fmt::format("{} lies {:.3f} m off its wall, which is {:.3f} m thick", NameOf(what, i, node.name), distance, thickness));
   }
 
   void CheckOpenings() {
@@ -209,10 +212,10 @@ class Validator {
       const Doorway& d = graph_.doorways[i];
       CheckOnWall("doorway", i, d);
       if (!d.room_a.valid())
-        Emit(DiagnosticKind::kDoorwayWithoutRoom, d.guid, fmt::format("doorway {} `{}` leads into no room", i, d.name));
+        Emit(DiagnosticKind::kDoorwayWithoutRoom, d.guid, fmt::format("{} leads into no room", NameOf("doorway", i, d.name)));
       if (d.room_a.valid() && d.room_a == d.room_b) {
         Emit(DiagnosticKind::kDoorwayWithoutRoom, d.guid,
-             fmt::format("doorway {} `{}` has {} on both sides", i, d.name, NameOf(d.room_a.index())));
+             fmt::format("{} has {} on both sides", NameOf("doorway", i, d.name), NameOf(d.room_a.index())));
       }
     }
     for (size_t i = 0; i < graph_.windows.size(); ++i) CheckOnWall("window", i, graph_.windows[i]);

@@ -53,6 +53,27 @@ class Program : public ::testing::Test {
   const std::string golden_ = std::string("'" PLUMB_SOURCE_DIR "/tests/compile/golden/diagnostics/");
 };
 
+TEST_F(Program, SimulateTakesAStoreyByName) {
+  const std::string simulate = "simulate house.agraph --duration 1 --max-duration 1 --deviate 0 -q -o ";
+  EXPECT_EQ(Plumb(simulate + "named --storey 'ground floor'").status, 0);
+  EXPECT_EQ(Plumb(simulate + "any --storey -1").status, 0);
+  const Outcome attic = Plumb(simulate + "attic --storey attic");
+  EXPECT_EQ(attic.status, 2);
+  EXPECT_THAT(attic.err, HasSubstr("attic"));
+}
+
+TEST_F(Program, StoreysAreOfTheirDrawingsHoweverThePathsAreWritten) {
+  for (const char* name : {"ground.dxf", "upper.dxf"}) fs::copy_file(fs::path(PLUMB_SOURCE_DIR "/plans/house") / name, folder_ / name);
+  const std::string compile = "compile ./ground.dxf upper.dxf --storey EG=ground.dxf@0 --storey OG=./upper.dxf@2.8 -o two.agraph";
+  ASSERT_EQ(Plumb(compile).status, 0);
+  EXPECT_THAT(Plumb("inspect two.agraph").out, HasSubstr("ground.dxf + ./upper.dxf"));
+  const auto hash = [&] { return Json::parse(Plumb("inspect two.agraph --json").out).at("source").at("sha256").get<std::string>(); };
+  const std::string before = hash();
+  Write("upper.dxf", "999\nanother issue\n" + Read("upper.dxf"));
+  ASSERT_EQ(Plumb(compile).status, 0);
+  EXPECT_NE(hash(), before) << "the second drawing is another";
+}
+
 TEST_F(Program, ValidateSaysTheSameInEveryFormat) {
   for (const auto& [input, expected] : {std::pair(std::string("house.agraph"), 0),
                                         {golden_ + "PL7010.ifc'", 0},

@@ -16,6 +16,7 @@ namespace {
 
 using Eigen::Vector2d;
 
+constexpr double kUpright_deg = 0.5;
 constexpr double kRightAngle = std::numbers::pi / 2;
 constexpr double kShortest_m = 0.01;                        // stops closer than this are one
 constexpr double kFaces = 0.99;                             // cosine: a facade looks that way
@@ -97,10 +98,10 @@ class Drawer {
  public:
   Drawer(const DimensionChain& chain, const Sheet& sheet)
       : chain_(chain), sheet_(sheet), outward_(chain.outward.x(), -chain.outward.y()), along_(chain.along.x(), -chain.along.y()) {
-    // To be read from below or from the right.
+    // To be read from below or from the right; sides that are a little off the upright, as measured ones are, all from the same.
     angle_deg_ = std::atan2(along_.y(), along_.x()) * 180 / std::numbers::pi;
-    if (angle_deg_ > 90 - 1e-6) angle_deg_ -= 180;
-    if (angle_deg_ <= -90 - 1e-6) angle_deg_ += 180;
+    if (angle_deg_ > 90 - kUpright_deg) angle_deg_ -= 180;
+    if (angle_deg_ <= -90 - kUpright_deg) angle_deg_ += 180;
     const double rad = angle_deg_ * std::numbers::pi / 180;
     up_ = {std::sin(rad), -std::cos(rad)};
     font_size_ = FontSize();

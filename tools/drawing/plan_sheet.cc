@@ -9,6 +9,7 @@
 #include <map>
 #include <numbers>
 
+#include "schema/source_paths.h"
 #include "tools/drawing/dimensions.h"
 #include "tools/drawing/floor_plan.h"
 #include "tools/drawing/room_labels.h"
@@ -87,7 +88,9 @@ std::string DrawNorth(double true_north_rad, double x, double y) {
 
 std::string DrawTitle(const AGraph& graph, StoreyId storey, const Sheet& sheet, double x, double y) {
   const Storey& s = graph.storeys[storey.index()];
-  const std::string file = std::filesystem::path(graph.source_path).filename().string();
+  std::string file;
+  for (const std::string& path : SplitSourcePaths(graph.source_path))
+    file += std::string(file.empty() ? "" : kBetweenSourcePaths) + std::filesystem::path(path).filename().string();
   return fmt::format(
       "<text class=\"title\" x=\"{0}\" y=\"{1}\" font-size=\"42\" font-weight=\"600\">{2}</text>"
       "<text class=\"title\" x=\"{0}\" y=\"{3}\" font-size=\"24\">floor plan 1:{4:g}, storey at {5} m, cut {6:.2f} m above; measures in "

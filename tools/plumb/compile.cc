@@ -6,8 +6,10 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <iterator>
 #include <memory>
+#include <system_error>
 #include <vector>
 
 #include "compiler/validate.h"
@@ -62,6 +64,13 @@ Expected<compiler::StoreyDrawing> ParseStorey(const std::string& text) {
   return out;
 }
 
+// However its path is written: `./a.dxf` and `a.dxf`.
+bool IsSameFile(const std::string& a, const std::string& b) {
+  std::error_code error;
+  return a == b || std::filesystem::equivalent(a, b, error) ||
+         std::filesystem::path(a).lexically_normal() == std::filesystem::path(b).lexically_normal();
+}
+
 // Every plan that is given must be the file of a storey, so that none is passed over in silence.
 Expected<std::vector<compiler::StoreyDrawing>> StoreysOf(const CompileFlags& flags) {
   std::vector<compiler::StoreyDrawing> out;
@@ -73,7 +82,7 @@ Expected<std::vector<compiler::StoreyDrawing>> StoreysOf(const CompileFlags& fla
     out.push_back(std::move(*storey));
   }
   for (const std::string& plan : flags.plans) {
-    const bool used = std::any_of(out.begin(), out.end(), [&](const auto& s) { return s.path == plan; });
+    const bool used = std::any_of(out.begin(), out.end(), [&](const auto& s) { return IsSameFile(s.path, plan); });
     if (!used && (flags.plans.size() > 1 || !out.empty()))
       return Fail(ErrorCode::kBadOption, fmt::format("`{}` is no storey; state --storey NAME={}@ELEVATION", plan, plan));
   }

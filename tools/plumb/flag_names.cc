@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <string_view>
 #include <utility>
 
@@ -22,6 +23,7 @@ constexpr auto kFlags = std::to_array<std::pair<std::string_view, std::string_vi
     {"HeightOptions.storey_m", "--storey-height"},
     {"HeightOptions.door_m", "--door-height"},
     {"HeightOptions.sill_m", "--sill-height"},
+    {"HeightOptions.window_top_m", "--window-top"},
     {"MassOptions.single_line_thickness_m", "--wall-thickness"},
     {"ReplayOptions.start_s", "--start"},
     {"ReplayOptions.max_duration_s", "--max-duration"},
@@ -46,6 +48,30 @@ constexpr auto kFlags = std::to_array<std::pair<std::string_view, std::string_vi
 });
 constexpr std::string_view kIs = " = ";
 
+bool IsOfName(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
+
+// The flags of other fields of the same options: of words with a unit behind them, "sill_m", and of those that a value follows, "unit = cm".
+std::string OthersInFlags(std::string_view text, std::string_view options) {
+  std::string out;
+  while (!text.empty()) {
+    const auto length = static_cast<size_t>(std::find_if_not(text.begin(), text.end(), IsOfName) - text.begin());
+    const std::string_view word = text.substr(0, length);
+    const bool has_value = text.substr(length).starts_with(kIs);
+    const auto known = std::find_if(kFlags.begin(), kFlags.end(), [&](const auto& f) {
+      return f.first.starts_with(options) && f.first.substr(options.size()) == word;
+    });
+    if (known != kFlags.end() && (has_value || word.find('_') != std::string_view::npos)) {
+      out += known->second;
+      text.remove_prefix(length);
+      if (has_value) out += ' ', text.remove_prefix(kIs.size());
+    } else {
+      out += text.substr(0, std::max<size_t>(length, 1));
+      text.remove_prefix(std::max<size_t>(length, 1));
+    }
+  }
+  return out;
+}
+
 }  // namespace
 
 std::string InFlags(const std::string& fault) {
@@ -53,7 +79,8 @@ std::string InFlags(const std::string& fault) {
   const auto known =
       std::find_if(kFlags.begin(), kFlags.end(), [&](const auto& f) { return f.first == std::string_view(fault).substr(0, end); });
   if (end == std::string::npos || known == kFlags.end()) return fault;
-  return std::string(known->second) + " " + fault.substr(end + kIs.size());
+  const std::string_view options = known->first.substr(0, known->first.find('.') + 1);
+  return std::string(known->second) + " " + OthersInFlags(std::string_view(fault).substr(end + kIs.size()), options);
 }
 
 }  // namespace plumb::tools

@@ -10,6 +10,7 @@
 #include "schema/agraph_json.h"
 #include "schema/agraph_reader.h"
 #include "schema/files.h"
+#include "schema/source_paths.h"
 #include "tools/drawing/plan_sheet.h"
 #include "tools/inspect/graph_text.h"
 #include "tools/inspect/graphml.h"
@@ -63,7 +64,9 @@ Status RunInspect(const InspectFlags& flags, Session& session) {
   // With its triangles, so that a damaged file is said to be one whatever is asked of it.
   const Expected<AGraph> graph = std::move(*file).Load();
   if (!graph) return session.Fail(graph.error());
-  const auto apart = CheckOutputs({{"--svg", flags.svg}, {"--graphml", flags.graphml}}, {flags.path, graph->source_path});
+  std::vector<std::string> inputs = SplitSourcePaths(graph->source_path);
+  inputs.push_back(flags.path);
+  const auto apart = CheckOutputs({{"--svg", flags.svg}, {"--graphml", flags.graphml}}, inputs);
   if (!apart) return session.Fail(apart.error());
   StoreyId storey;
   if (!flags.storey.empty()) {

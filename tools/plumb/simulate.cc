@@ -12,15 +12,19 @@
 
 #include "schema/agraph_reader.h"
 #include "tools/plumb/command.h"
+#include "tools/inspect/storeys.h"
 #include "tools/plumb/flag_names.h"
 #include "tools/simulate/sensor.h"
 
 namespace plumb::tools {
 namespace {
 
+constexpr std::string_view kAnyStorey = "-1";  // the one with most rooms
+
 struct SimulateFlags {
   std::string plan, output;
   std::string deviate = "3";
+  std::string storey;  // empty: the one with most rooms
   std::string translation = "0.05:0.35", rotation_deg = "0:5";
   bool force = false, duration_given = false;
   SimulateOptions options;
@@ -80,7 +84,7 @@ bool HoldsARecordingOfOthers(const std::filesystem::path& folder) {
 }
 
 Status RunSimulate(const SimulateFlags& flags, Session& session) {
-  const auto options = OptionsOf(flags);
+  auto options = OptionsOf(flags);
   if (!options) return session.Fail(options.error());
   if (!flags.force && HoldsARecordingOfOthers(flags.output)) {
     return session.Fail(
@@ -89,6 +93,11 @@ Status RunSimulate(const SimulateFlags& flags, Session& session) {
   }
   const auto plan = ReadAGraphFile(flags.plan);
   if (!plan) return session.Fail(plan.error());
+  if (!flags.storey.empty() && flags.storey != kAnyStorey) {
+    const auto storey = FindStorey(*plan, flags.storey);
+    if (!storey) return session.Fail(storey.error());
+    options->storey = static_cast<int>(storey->index());
+  }
   const auto done = Simulate(*plan, *options, flags.output, [&](size_t i, size_t n) { session.console.Progress("simulating", i, n); });
   if (!done) return session.Fail(done.error());
   session.console.Info(
@@ -121,7 +130,7 @@ void AddSimulate(CLI::App& app, Session& session) {
   sub->add_option("--rotation", flags->rotation_deg, "least and largest turn of such a wall, deg")->type_name("LEAST:MOST");
   sub->add_option("--sensor", o.sensor, "one of " + sensors);
   sub->add_option("--noise", o.noise_m, "sigma of a measured range, m; 0: the sensor's own");
-  sub->add_option("--storey", o.storey, "storey to drive on, counted from 0; -1: the one with most rooms");
+  sub->add_option("--storey", flags->storey, "storey to drive on, by name or counted from 0; else the one with most rooms")->type_name("NAME");
   sub->add_option("--speed", o.speed_m_s, "of the robot, m/s");
   sub->add_option("--sensor-height", o.sensor_height_m, "above the floor, m");
   sub->add_option("--duration", o.min_duration_s, "drive at least this long, s");

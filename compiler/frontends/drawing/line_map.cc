@@ -276,11 +276,13 @@ std::vector<Eigen::Vector2d> LineMap::RingAt(uint32_t half_edge) const {
 std::optional<RayHit> LineMap::HitEdge(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction, uint32_t edge) const {
   const Eigen::Vector2d a = vertices_[edges_[edge].a] - origin, b = vertices_[edges_[edge].b] - origin;
   const double sa = Cross(direction, a), sb = Cross(direction, b);
-  // Half open, so that a ray through a vertex meets one of two edges that go on there.
+  // Half open, so that a ray through a vertex meets one of two edges that go on there: as if the ray ran a hair to its left.
   if ((sa <= 0) == (sb <= 0)) return std::nullopt;
-  const double t = direction.dot(a + (b - a) * (sa / (sa - sb)));
+  // At an end exactly there, so that edges that share it are hit at one place.
+  const double t = sa == 0 ? direction.dot(a) : sb == 0 ? direction.dot(b) : direction.dot(a + (b - a) * (sa / (sa - sb)));
   if (t < 0) return std::nullopt;
-  return RayHit{t, edge, sa <= 0};  // an edge that runs from the ray's right to its left has the origin on its left
+  // An edge that runs from the ray's right to its left has the origin on its left.
+  return RayHit{t, edge, sa <= 0, direction.dot(b - a) / (sb - sa)};
 }
 
 uint32_t LineMap::FaceAt(const Eigen::Vector2d& p) const {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <vector>
 
 #include "compiler/geometry/box_tree.h"
@@ -23,6 +24,9 @@ struct RayHit {
   double t_m = 0;
   uint32_t edge = 0;
   bool on_left = true;  // the ray comes from the edge's left side
+  double lean = 0;      // how much later a ray meets the edge that runs 1 m farther to the left
+  // Of two edges that leave the vertex that is hit, the one that the ray would meet first a hair to its left.
+  [[nodiscard]] bool IsBefore(const RayHit& other) const { return std::tie(t_m, lean, edge) < std::tie(other.t_m, other.lean, other.edge); }
 };
 
 class LineMap {
@@ -96,7 +100,7 @@ std::optional<RayHit> LineMap::Cast(const Eigen::Vector2d& origin, const Eigen::
     VisitEdges(box, [&](uint32_t e) {
       const std::optional<RayHit> hit = HitEdge(origin, direction, e);
       if (!hit || hit->t_m > reach_m || !keep(e)) return;
-      if (!best || hit->t_m < best->t_m || (hit->t_m == best->t_m && e < best->edge)) best = hit;
+      if (!best || hit->IsBefore(*best)) best = hit;
     });
     if (best || reach_m >= max_m) return best;
   }

@@ -22,6 +22,8 @@ namespace {
 constexpr double kOff_m = 1e-4;
 constexpr double kAgainst = 0.96;    // cosine between sides that face each other
 constexpr double kSkewEnds = 0.87;   // ... between ends of walls: the two lines of a wall often end askew
+constexpr double kSquareEnd = 0.9995;  // ... between a wall's sides, and between them and the normal of its end: 1.8 degrees
+constexpr double kSlipEnd = 0.96;      // ends that are more askew are drawn so
 constexpr double kMinEnd_m = 0.03;   // narrower ends are no walls
 constexpr double kBeyond_m = 0.15;   // from the faces of a wall into the rooms beside it
 constexpr double kFrame_m = 0.2;  // a frame's width and a bit
@@ -59,6 +61,18 @@ class OpeningFinder {
   }
 
  private:
+  // Square to the end; where it is a little askew, by a slip of the pen, along the wall.
+  Eigen::Vector2d OutOf(uint32_t end) const {
+    const auto& sides = outline_.sides();
+    const Side &s = sides[end], &before = sides[s.prev], &after = sides[s.next];
+    const Eigen::Vector2d square = -Perp(s.along());
+    // A cap over two lines of which one ends early says nothing about where the wall goes on.
+    const bool is_drawn = s.source < drawing_.paths.size(), between_sides = before.along().dot(after.along()) < -kSquareEnd;
+    if (!is_drawn || !between_sides || std::max(before.length_m(), after.length_m()) < s.length_m()) return square;
+    const Eigen::Vector2d wall = before.length_m() > after.length_m() ? before.along() : Eigen::Vector2d(-after.along());
+    return wall.dot(square) > kSquareEnd || wall.dot(square) < kSlipEnd ? square : wall;
+  }
+
   // Across the gap in front of an end of a wall.
   std::optional<Gap> GapBefore(uint32_t end) const {
     const Side& s = outline_.sides()[end];
@@ -69,7 +83,7 @@ class OpeningFinder {
       if (!curved) return std::nullopt;
       return Gap{std::move(curved->opening), end, curved->far_side, outline_.IsEnd(curved->far_side)};
     }
-    const Eigen::Vector2d out = -Perp(s.along());
+    const Eigen::Vector2d out = OutOf(end), across = Perp(out);
     std::optional<SideHit> first;
     for (const double at : {0.5, 0.2, 0.8}) {
       const auto hit = outline_.Cast(s.a + at * (s.b - s.a) + kOff_m * out, out, options_.max_window_gap_m);
@@ -77,14 +91,14 @@ class OpeningFinder {
     }
     if (!first || first->t_m < options_.min_width_m) return std::nullopt;
     const Side& t = outline_.sides()[first->side];
-    if (t.along().dot(s.along()) > -kSkewEnds) return std::nullopt;
+    if (t.along().dot(across) > -kSkewEnds) return std::nullopt;
     Gap gap;
     gap.side_a = end;
     gap.side_b = first->side;
     gap.between_ends = outline_.IsEnd(first->side);
     // What both have in common, seen along the gap.
-    const double lo = std::max(0.0, std::min((t.a - s.a).dot(s.along()), (t.b - s.a).dot(s.along())));
-    const double hi = std::min(thickness, std::max((t.a - s.a).dot(s.along()), (t.b - s.a).dot(s.along())));
+    const double lo = std::max(0.0, std::min((t.a - s.a).dot(across), (t.b - s.a).dot(across)));
+    const double hi = std::min(thickness, std::max((t.a - s.a).dot(across), (t.b - s.a).dot(across)));
     if (hi - lo < 0.3 * thickness) return std::nullopt;
     gap.opening.from = s.a + 0.5 * (lo + hi) * s.along();
     gap.opening.to = gap.opening.from + (first->t_m + kOff_m) * out;

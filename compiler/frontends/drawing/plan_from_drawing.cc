@@ -8,6 +8,7 @@
 
 #include "compiler/frontends/drawing/plane.h"
 #include "compiler/frontends/drawing/room_names.h"
+#include "compiler/frontends/drawing/wall_report.h"
 #include "compiler/frontends/drawing/wall_runs.h"
 #include "compiler/geometry/sweep.h"
 #include "schema/polygon.h"
@@ -52,7 +53,7 @@ class StoreyBuilder {
     for (WallRun& run : runs_) AddWall(run);
     AddSpaces();
     if (!AddLeftovers(outline)) return Fail();
-    Report(*mass);
+    ReportWalls(drawing_, *mass, options_.mass, sink_);
     return true;
   }
 
@@ -315,19 +316,6 @@ class StoreyBuilder {
       Area area;
       for (const uint32_t loop : map.LoopsOf(face)) area.push_back(map.RingAt(loop));
       AddSpace(name, texts[0]->location, area);
-    }
-  }
-
-  void Report(const WallMass& mass) {
-    const MassOptions& o = options_.mass;
-    if (mass.single_lines) {
-      sink_.Emit(DiagnosticKind::kSingleLineWalls, {},
-                 fmt::format("the walls are drawn as single lines, {:.0f} m of them; each is taken as a wall {:.2f} m thick", mass.single_m,
-                             o.single_line_thickness_m));
-    } else if (mass.single_m > o.min_single_m) {
-      sink_.Emit(DiagnosticKind::kLinesWithoutPartner, {},
-                 fmt::format("{:.1f} m of lines have no parallel partner within {:.2f} m and are taken for no walls", mass.single_m,
-                             o.max_thickness_m));
     }
   }
 

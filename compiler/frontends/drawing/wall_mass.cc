@@ -10,6 +10,7 @@
 #include <set>
 
 #include "compiler/frontends/drawing/curve_edges.h"
+#include "compiler/frontends/drawing/loose_ends.h"
 #include "compiler/frontends/drawing/plane.h"
 #include "compiler/frontends/drawing/single_lines.h"
 #include "compiler/geometry/box_tree.h"
@@ -19,7 +20,6 @@ namespace plumb::compiler {
 namespace {
 
 constexpr uint32_t kClosing = 0xfffffffeu;  // source of a line that the drawing does not have
-constexpr double kParallel = 0.97, kSquare = 0.35, kBeside = 0.05;
 constexpr double kBeside_m = 0.02;   // from a room's outline into the room
 constexpr double kAround_m = 0.1;    // ... to the walls around it
 constexpr double kSampled_m = 0.4;  // between points where a face is measured
@@ -50,8 +50,7 @@ class MassFinder {
 
   std::optional<WallMass> Run() {
     CollectLines();
-    if (!Build()) return std::nullopt;
-    if (const size_t before = lines_.size(); AddClosings(), lines_.size() > before && !Build()) return std::nullopt;
+    if (!Build() || !Close()) return std::nullopt;
     Classify();
     if (out_.single_lines) {
       const double single_m = out_.single_m;
@@ -85,100 +84,14 @@ class MassFinder {
     return map.has_value();
   }
 
-  struct LooseEnd {
-    uint32_t vertex;
-    Eigen::Vector2d at, out;  // the line's direction as it leaves
-    double length_m;
-    bool used = false;
-  };
-
-  std::vector<LooseEnd> LooseEnds() const {
-    std::vector<LooseEnd> ends;
-    for (uint32_t h = 0; h < Map().num_half_edges(); ++h) {
-      if (Map().DegreeOf(Map().To(h)) != 1) continue;
-      const Eigen::Vector2d d = Map().ToPoint(h) - Map().FromPoint(h);
-      ends.push_back({Map().To(h), Map().ToPoint(h), d.normalized(), d.norm()});
-    }
-    return ends;
-  }
-
-  void AddLine(const Eigen::Vector2d& a, const Eigen::Vector2d& b) { lines_.push_back({a, b, kClosing}); }
-
-  // The nearest other end that `fits`, for which this one is the nearest as well.
-  template <class Fits>
-  void JoinNearest(std::vector<LooseEnd>& ends, double reach_m, const Fits& fits) {
-    std::vector<Eigen::AlignedBox2d> boxes;
-    for (const LooseEnd& e : ends) boxes.emplace_back(e.at);
-    const BoxTree<2> tree(std::move(boxes));
-    std::vector<uint32_t> nearest(ends.size(), kNone);
-    for (uint32_t i = 0; i < ends.size(); ++i) {
-      if (ends[i].used) continue;
-      const Eigen::Vector2d reach = Eigen::Vector2d::Constant(reach_m);
-      double best_m = reach_m;
-      tree.ForEachIn({ends[i].at - reach, ends[i].at + reach}, [&](uint32_t j) {
-        if (j == i || ends[j].used || !fits(ends[i], ends[j])) return;
-        const double distance = (ends[j].at - ends[i].at).norm();
-        if (distance < best_m || (distance == best_m && j < nearest[i])) best_m = distance, nearest[i] = j;
-      });
-    }
-    for (uint32_t i = 0; i < ends.size(); ++i) {
-      const uint32_t j = nearest[i];
-      if (j == kNone || j < i || nearest[j] != i || ends[i].used || ends[j].used) continue;
-      ends[i].used = ends[j].used = true;
-      AddLine(ends[i].at, ends[j].at);
-    }
-  }
-
-  void AddClosings() {
-    std::vector<LooseEnd> ends = LooseEnds();
-    ExtendToLines(ends);
-    JoinNearest(ends, options_.max_thickness_m, [&](const LooseEnd& a, const LooseEnd& b) {
-      const Eigen::Vector2d d = b.at - a.at;
-      return a.out.dot(b.out) > kParallel && std::abs(d.dot(a.out)) <= kSquare * d.norm() &&
-             std::min(a.length_m, b.length_m) > 0.5 * d.norm();
-    });
-    CapAtCorners(ends);
-    JoinNearest(ends, options_.max_break_m, [](const LooseEnd&, const LooseEnd&) { return true; });
-  }
-
-  // The other line of the wall ends beside this one as well, but another wall goes on from there.
-  void CapAtCorners(std::vector<LooseEnd>& ends) {
-    const Eigen::Vector2d reach = Eigen::Vector2d::Constant(options_.max_thickness_m);
-    for (LooseEnd& e : ends) {
-      if (e.used) continue;
-      std::pair<double, uint32_t> best(options_.max_thickness_m, kNone);
-      Map().VisitEdges({e.at - reach, e.at + reach}, [&](uint32_t edge) {
-        for (const uint32_t h : {2 * edge, 2 * edge + 1}) {
-          const Eigen::Vector2d d = Map().ToPoint(h) - e.at, line = Map().ToPoint(h) - Map().FromPoint(h);
-          const bool beside = d.norm() > options_.min_thickness_m && std::abs(d.dot(e.out)) <= kBeside * d.norm();
-          if (!beside || Map().To(h) == e.vertex || line.dot(e.out) < kParallel * line.norm() || GoesOn(h)) continue;
-          best = std::min(best, {d.norm(), Map().To(h)});
-        }
-      });
-      if (best.second == kNone || e.length_m < 0.5 * best.first) continue;
-      e.used = true;
-      AddLine(e.at, Map().vertices()[best.second]);
-    }
-  }
-
-  // Straight on, in another edge of the line.
-  bool GoesOn(uint32_t half_edge) const {
-    const Eigen::Vector2d d = (Map().ToPoint(half_edge) - Map().FromPoint(half_edge)).normalized();
-    for (uint32_t h = Map().Next(half_edge); h != (half_edge ^ 1u); h = Map().Next(h ^ 1u)) {
-      if ((Map().ToPoint(h) - Map().FromPoint(h)).normalized().dot(d) > kParallel) return true;
-    }
-    return false;
-  }
-
-  void ExtendToLines(std::vector<LooseEnd>& ends) {
-    for (LooseEnd& e : ends) {
-      const double reach = std::min(options_.max_undershoot_m, 0.5 * e.length_m);
-      const auto other = [&](uint32_t edge) { return Map().edges()[edge].a != e.vertex && Map().edges()[edge].b != e.vertex; };
-      const std::optional<RayHit> hit = Map().Cast(e.at, e.out, reach, other);
-      if (!hit) continue;
-      e.used = true;
-      AddLine(e.at, e.at + (hit->t_m + options_.join_m) * e.out);
-    }
+  // False: too many crossings.
+  bool Close() {
+    out_.heals = FindHeals(Map(), options_);
+    for (const Heal& heal : out_.heals) lines_.push_back({heal.from, heal.to, kClosing});
+    if (!out_.heals.empty() && !Build()) return false;
+    const auto closings = FindClosings(Map(), options_);
+    for (const auto& [from, to] : closings) lines_.push_back({from, to, kClosing});
+    return closings.empty() || Build();
   }
 
   // How far the other side of the face is across from points of its boundary.
@@ -210,11 +123,11 @@ class MassFinder {
       for (const auto& w : widths[f]) typical.push_back({median[f], w.weight_m});
     }
     out_.typical_thickness_m = WeightedMedian(typical);
-    const double limit = std::min(options_.max_thickness_m, std::max(0.3, 2 * out_.typical_thickness_m));
+    const double limit = out_.ThickestUsual_m(options_);
     out_.is_wall.assign(Map().num_faces(), false);
     for (uint32_t f = 1; f < Map().num_faces(); ++f) out_.is_wall[f] = median[f] > 0 && median[f] <= limit;
     MarkFilled();
-    MarkPiers();
+    MarkPiers(median);
     ClearRooms();
     CountSingleLines();
   }
@@ -252,32 +165,32 @@ class MassFinder {
   }
 
   // Outlines with free space around them; the outline of a room has walls around it.
-  void MarkPiers() {
+  void MarkPiers(const std::vector<double>& width_m) {
     for (uint32_t f = 1; f < Map().num_faces(); ++f) {
-      if (!out_.is_wall[f] && Map().LoopsOf(f).size() == 1 && IsPier(f)) out_.is_wall[f] = true;
+      if (!out_.is_wall[f] && IsPier(f, width_m[f])) out_.is_wall[f] = true;
     }
   }
 
-  bool IsPier(uint32_t face) const {
+  bool IsPier(uint32_t face, double width_m) const {
     const uint32_t start = Map().LoopsOf(face)[0], source = Map().edges()[start / 2].source;
     double free_m = 0, length_m = 0;
     bool one_outline = source < drawing_.paths.size() && drawing_.paths[source].closed;
-    uint32_t h = start;
-    do {
-      const LineMap::Edge& edge = Map().edges()[h / 2];
-      if (edge.source < drawing_.paths.size() && drawing_.paths[edge.source].role == LineRole::kAny) return false;
-      const double length = (Map().ToPoint(h) - Map().FromPoint(h)).norm();
-      one_outline = one_outline && edge.source == source;
-      length_m += length;
-      if (!out_.is_wall[Map().FaceOf(h ^ 1u)]) free_m += length;
-      h = Map().Next(h);
-    } while (h != start);
-    return 2 * free_m > length_m && LesserSide(Map().RingAt(start)) <= (one_outline ? options_.max_pier_m : options_.max_loose_pier_m);
-  }
-
-  bool IsSingle(uint32_t e) const {
-    const uint32_t source = Map().edges()[e].source;
-    return source < drawing_.paths.size() && !out_.is_wall[Map().FaceOf(2 * e)] && !out_.is_wall[Map().FaceOf(2 * e + 1)];
+    for (const uint32_t loop : Map().LoopsOf(face)) {
+      uint32_t h = loop;
+      do {
+        const LineMap::Edge& edge = Map().edges()[h / 2];
+        if (edge.source < drawing_.paths.size() && drawing_.paths[edge.source].role == LineRole::kAny) return false;
+        const double length = (Map().ToPoint(h) - Map().FromPoint(h)).norm();
+        one_outline = one_outline && edge.source == source;
+        length_m += length;
+        if (!out_.is_wall[Map().FaceOf(h ^ 1u)]) free_m += length;
+        h = Map().Next(h);
+      } while (h != loop);
+    }
+    if (2 * free_m <= length_m) return false;
+    if (width_m > 0 && width_m <= options_.max_thickness_m) return true;  // a wall much thicker than most
+    return Map().LoopsOf(face).size() == 1 &&
+           LesserSide(Map().RingAt(start)) <= (one_outline ? options_.max_pier_m : options_.max_loose_pier_m);
   }
 
   void CountSingleLines() {
@@ -285,7 +198,7 @@ class MassFinder {
     out_.single_m = 0;
     for (uint32_t e = 0; e < Map().edges().size(); ++e) {
       const double length = (Map().ToPoint(2 * e) - Map().FromPoint(2 * e)).norm();
-      if (IsSingle(e)) out_.single_m += length;
+      if (out_.IsSingle(e, drawing_.paths.size())) out_.single_m += length;
       else bounding_m += length;
     }
     out_.single_lines = out_.single_m > 0 && bounding_m <= options_.max_double_share * (bounding_m + out_.single_m);
@@ -293,7 +206,7 @@ class MassFinder {
 
   void AddSingleLines() {
     std::vector<bool> is_single;
-    for (uint32_t e = 0; e < Map().edges().size(); ++e) is_single.push_back(IsSingle(e));
+    for (uint32_t e = 0; e < Map().edges().size(); ++e) is_single.push_back(out_.IsSingle(e, drawing_.paths.size()));
     WidenedLines widened = WidenSingleLines(Map(), is_single, ArcsOf(drawing_, paths_), options_);
     lines_ = std::move(widened.lines);
     std::move(widened.outlines.begin(), widened.outlines.end(), std::back_inserter(fills_));

@@ -1,6 +1,7 @@
 // Which faces between drawn lines are the material of walls.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -13,6 +14,7 @@ namespace plumb::compiler {
 
 struct MassOptions {
   double join_m = 0.003;             // ends of lines closer than this meet
+  double heal_share = 0.3;           // of a wall's thickness: ends that lie this far beside what they were to meet are slips of the pen
   double max_undershoot_m = 0.06;    // an end that stops this short of a line was to reach it
   double max_break_m = 0.2;          // two loose ends this close, with none closer, were to meet
   double max_thickness_m = 0.65;     // of a wall
@@ -26,21 +28,37 @@ struct MassOptions {
   [[nodiscard]] std::string Check() const;
 };
 
+// The end of a line that was led to another line, or to its end.
+struct Heal {
+  Eigen::Vector2d from, to;
+  uint32_t path = 0, other = 0;  // of the drawing; none of them where it was healed before
+  [[nodiscard]] double distance_m() const { return (to - from).norm(); }
+};
+
 struct WallMass {
   LineMap map;
   std::vector<bool> is_wall;     // by face
   std::vector<bool> is_curved;   // by edge: a step along a curve
   std::vector<uint32_t> circle_of;  // by edge: in `circles`, where it is a step along an arc; else 0xffffffff
   std::vector<Circle> circles;
+  std::vector<Heal> heals;         // nearest first
   double typical_thickness_m = 0;  // 0: no face is a wall
   double single_m = 0;           // length of lines that have no partner
   bool single_lines = false;     // they were given a thickness
+  // Drawn (there are `paths` of them), with no wall on either side.
+  [[nodiscard]] bool IsSingle(uint32_t edge, size_t paths) const {
+    return map.edges()[edge].source < paths && !is_wall[map.FaceOf(2 * edge)] && !is_wall[map.FaceOf(2 * edge + 1)];
+  }
+  // What is thicker than this must have more to show for itself to be a wall.
+  [[nodiscard]] double ThickestUsual_m(const MassOptions& options) const {
+    return std::min(options.max_thickness_m, std::max(0.3, 2 * typical_thickness_m));
+  }
   // Half-edges with wall on the left and none on the right.
   [[nodiscard]] bool IsBoundary(uint32_t half_edge) const { return is_wall[map.FaceOf(half_edge)] && !is_wall[map.FaceOf(half_edge ^ 1u)]; }
   [[nodiscard]] bool EdgeIsBoundary(uint32_t edge) const { return IsBoundary(2 * edge) || IsBoundary(2 * edge + 1); }
 };
 
-// Loose ends are closed first: the two of a wall that ends openly, those that stop short of a line, and breaks. A face is a wall if what
+// Loose ends are closed first: slips of the pen, the two of a wall that ends openly, those that stop short of a line, and breaks. A face is a wall if what
 // lies across it from most of its boundary is no farther than walls are thick in this drawing; so is what a wall's fill covers, and an outline
 // on a layer of walls that has free space around it. `paths`: those of `drawing` that may bound walls. None: too many crossings.
 [[nodiscard]] std::optional<WallMass> FindWallMass(const Drawing& drawing, const std::vector<uint32_t>& paths, const MassOptions& options);

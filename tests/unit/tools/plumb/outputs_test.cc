@@ -26,6 +26,9 @@ TEST(InFlags, NamesTheFlagOfAField) {
   EXPECT_EQ(InFlags("DrawingFileOptions.scale_m = -1; must be in [0, 10000)"), "--scale -1; must be in [0, 10000)");
   EXPECT_EQ(InFlags("SimulateOptions.speed_m_s = 9; must be from 0.05 to 3"), "--speed 9; must be from 0.05 to 3");
   EXPECT_EQ(InFlags("ReplayOptions.threads = -2; must be >= 0"), "--threads -2; must be >= 0");
+  EXPECT_EQ(InFlags("HeightOptions.sill_m = 3, window_top_m = 2; must be 0 < sill_m < window_top_m <= storey_m"),
+            "--sill-height 3, --window-top 2; must be 0 < --sill-height < --window-top <= --storey-height");
+  EXPECT_EQ(InFlags("DrawingFileOptions.scale_m = 2; must not be given besides unit = cm"), "--scale 2; must not be given besides --unit cm");
   EXPECT_EQ(InFlags("RoomOptions.min_width_m = -1; must not be negative"), "RoomOptions.min_width_m = -1; must not be negative");
 }
 

@@ -52,6 +52,19 @@ TEST(LineMap, WhatLiesAroundALeftmostCornerWithALineFromItIsTheOutside) {
   }
 }
 
+TEST(LineMap, WhatLiesLevelWithACornerBesideItIsOutsideThatCorner) {
+  // Its ray to the left meets the corner's two lines in one point, whichever of them was drawn first.
+  const std::vector<MapLine> corner = {{{0, -0.01}, {3, 0}, 0}, {{3, 0}, {3, -1}, 1}, {{3, -1}, {0, -0.01}, 2}};
+  for (const bool turned : {false, true}) {
+    const std::vector<MapLine> first = turned ? std::vector<MapLine>{corner[1], corner[0], corner[2]} : corner;
+    const LineMap map = Map(first + Box(4, -1, 5, 0));
+    ASSERT_EQ(map.num_faces(), 3u);
+    EXPECT_EQ(map.LoopsOf(map.FaceAt({2.5, -0.5})).size(), 1u);
+    EXPECT_EQ(map.LoopsOf(0).size(), 2u);
+    EXPECT_EQ(map.FaceAt({3.5, 0}), 0u);
+  }
+}
+
 TEST(LineMap, EndsThatMissByLessThanThePenMeet) {
   const LineMap map = Map({{{0, 0}, {4, 0.0005}, 0}, {{4.0005, 0}, {4, 4}, 1}, {{4, 4}, {0, 4}, 2}, {{0, 4}, {0.0004, 0.0003}, 3}});
   EXPECT_EQ(map.num_faces(), 2u);

@@ -64,5 +64,53 @@ TEST(WallMass, ARoomsOutlineFreesNoWallThatReachesBeyondIt) {
   EXPECT_FALSE(IsWall(mass, 2, 2));
 }
 
+// A wall 4 m long and 0.2 m thick in four lines, the first of which starts at `from` instead of (0, 0).
+Drawing WallFrom(const Eigen::Vector2d& from) {
+  Drawing out;
+  const std::vector<Eigen::Vector2d> corners = {{0, 0}, {4, 0}, {4, 0.2}, {0, 0.2}};
+  for (size_t k = 0; k < 4; ++k) {
+    DrawnPath path;
+    path.points = {corners[k], corners[(k + 1) % 4]};
+    path.role = LineRole::kWall;
+    out.paths.push_back(std::move(path));
+  }
+  out.paths[0].points[0] = from;
+  return out;
+}
+
+TEST(WallMass, AnEndBesideItsCornerIsLedThere) {
+  for (const Eigen::Vector2d& from : {Eigen::Vector2d(0.005, 0), {0, -0.012}, {0.02, 0.02}, {-0.03, -0.02}}) {
+    const WallMass mass = MassOf(WallFrom(from));
+    EXPECT_TRUE(IsWall(mass, 2, 0.1)) << from.transpose();
+    ASSERT_EQ(mass.heals.size(), 1u) << from.transpose();
+    EXPECT_LE(mass.heals[0].distance_m(), from.norm() + 1e-9);
+  }
+}
+
+TEST(WallMass, WhatRunsOverItsCornerNeedsNoHealing) {
+  const WallMass mass = MassOf(WallFrom({-0.02, 0}));
+  EXPECT_TRUE(IsWall(mass, 2, 0.1));
+  EXPECT_TRUE(mass.heals.empty());
+}
+
+TEST(WallMass, WhatIsFarForItsThicknessIsNoSlip) {
+  const WallMass mass = MassOf(WallFrom({0.09, 0.09}));
+  EXPECT_TRUE(mass.heals.empty());
+}
+
+// Outer walls 0.4 m thick around many partitions of 0.1 m: two outlines, one within the other.
+TEST(WallMass, ARingMuchThickerThanMostWallsIsAWallOnALayerOfWalls) {
+  Drawing drawing;
+  AddBox(0, 0, 10, 8, drawing);
+  AddBox(0.4, 0.4, 9.6, 7.6, drawing);
+  for (int i = 1; i < 9; ++i) AddBox(i, 1, i + 0.1, 7, drawing);
+  EXPECT_FALSE(IsWall(MassOf(drawing), 0.2, 4)) << "lines alone do not tell";
+  for (DrawnPath& path : drawing.paths) path.role = LineRole::kWall;
+  const WallMass mass = MassOf(drawing);
+  EXPECT_TRUE(IsWall(mass, 0.2, 4));
+  EXPECT_TRUE(IsWall(mass, 3.05, 4));
+  EXPECT_FALSE(IsWall(mass, 3.5, 4));
+}
+
 }  // namespace
 }  // namespace plumb::compiler

@@ -1,0 +1,23 @@
+// AGraph::source_path of a plan that is drawn in several files.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace plumb {
+
+inline constexpr std::string_view kBetweenSourcePaths = " + ";
+
+[[nodiscard]] inline std::vector<std::string> SplitSourcePaths(std::string_view joined) {
+  std::vector<std::string> out;
+  for (size_t at = joined.find(kBetweenSourcePaths); at != std::string_view::npos; at = joined.find(kBetweenSourcePaths)) {
+    out.emplace_back(joined.substr(0, at));
+    joined.remove_prefix(at + kBetweenSourcePaths.size());
+  }
+  out.emplace_back(joined);
+  return out;
+}
+
+}  // namespace plumb

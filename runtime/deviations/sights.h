@@ -17,13 +17,14 @@ struct Sight {
 
 inline constexpr size_t kSightsPerKeyframe = 6000;
 
-// An even sample of each keyframe's points, in the map's order. Merged keyframes have none: those they were merged into saw the same.
+// An even sample of each keyframe's points, at most `per_keyframe`, in the map's order. Merged keyframes have none: those they were merged into saw the same.
 template <class F>
-void ForEachSight(const SGraph& map, const Eigen::Isometry3d& T_plan_map, F&& visit) {
+void ForEachSight(const SGraph& map, const Eigen::Isometry3d& T_plan_map, F&& visit,
+                  size_t per_keyframe = kSightsPerKeyframe) {
   for (const Keyframe& keyframe : map.keyframes) {
     if (keyframe.merged) continue;
     const Eigen::Isometry3d T = T_plan_map * keyframe.T_map_kf;
-    const size_t step = std::max<size_t>(1, (keyframe.points.size() + kSightsPerKeyframe - 1) / kSightsPerKeyframe);
+    const size_t step = std::max<size_t>(1, (keyframe.points.size() + per_keyframe - 1) / per_keyframe);
     size_t next = 0;
     Sight sight{T.translation(), {}, keyframe.id};
     for (size_t i = 0; i < keyframe.points.size(); i += step) {

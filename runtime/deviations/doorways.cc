@@ -15,7 +15,7 @@ namespace plumb::runtime {
 namespace {
 
 constexpr double kReach_m = 0.5;          // of PanelGrid's cells
-constexpr double kMinWall_m = 0.08;       // of plain wall beside a jamb: less, and the next wall's face is the jamb
+constexpr double kMinWall_m = 0.04;       // of plain wall beside a jamb: less, and the next wall's face is the jamb
 constexpr double kOnFace_m = 0.05;        // of a face, 2.5 sigma of a range
 constexpr double kBehind_m = 0.02;        // what is inside the wall is not on its far face
 constexpr double kBeyond_m = 0.10;        // a line that goes on so far has passed the wall
@@ -74,8 +74,9 @@ struct Site {
   }
 
   void Take(const Sight& sight, double max_sight_m) {
-    const double u0 = at.U(sight.from.head<2>()), w0 = at.W(sight.from.head<2>()), u1 = at.U(sight.to.head<2>()), w1 = at.W(sight.to.head<2>());
-    const double length_m = (sight.to - sight.from).norm(), du = u1 - u0, dw = w1 - w0;
+    const Eigen::Vector3d from = sight.from + 0.5 * sight.step;
+    const double u0 = at.U(from.head<2>()), w0 = at.W(from.head<2>()), u1 = at.U(sight.to.head<2>()), w1 = at.W(sight.to.head<2>());
+    const double length_m = (sight.to - from).norm(), du = u1 - u0, dw = w1 - w0;
     if (dw == 0) return;
     const bool from_a = dw > 0;
     const double near = from_a ? at.w_a_m : at.w_b_m, far = from_a ? at.w_b_m : at.w_a_m;
@@ -85,9 +86,12 @@ struct Site {
     if (depth_m > thickness_m + kBeyond_m) {
       if (before_m < kBefore_m || std::abs(dw) < kMinIncidence * length_m) return;
       const double t_near = (near - w0) / dw, t_far = (far - w0) / dw;
-      const double z_near = sight.from.z() + t_near * (sight.to.z() - sight.from.z()), z_far = sight.from.z() + t_far * (sight.to.z() - sight.from.z());
+      const double z_near = from.z() + t_near * (sight.to.z() - from.z()), z_far = from.z() + t_far * (sight.to.z() - from.z());
       if (!within(z_near) || !within(z_far) || t_far * length_m > max_sight_m) return;
-      const double a = u0 + t_near * du, b = u0 + t_far * du, sigma_m = std::hypot(kPlace_m, kBeam_rad * t_far * length_m);
+      const double a = u0 + t_near * du, b = u0 + t_far * du;
+      // Where between two sweeps the sensor was moves a line by less the nearer to its end it passes the wall.
+      const double moved_m = (std::abs(at.along.dot(sight.step.head<2>())) + std::abs(at.across.dot(sight.step.head<2>()) * du / dw)) * (1 - t_near) / std::sqrt(12.0);
+      const double sigma_m = std::hypot(kPlace_m, kBeam_rad * t_far * length_m, moved_m);
       right.AddPassed(std::min(a, b) - at.right.u_m, sigma_m, sight.keyframe);
       left.AddPassed(at.left.u_m - std::max(a, b), sigma_m, sight.keyframe);
       if (std::min(a, b) > at.right.u_m && std::max(a, b) < at.left.u_m) ++passed;

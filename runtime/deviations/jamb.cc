@@ -59,24 +59,18 @@ void JambEvidence::AddPassed(double x_m, double sigma_m, uint32_t keyframe) {
 class JambSearch {
  public:
   JambSearch(const JambEvidence& evidence, const JambOptions& options)
-      : e_(evidence), options_(options), log_likelihood_(evidence.bins_, 0.0) {
-    for (const JambEvidence::Histogram& face : e_.faces_) AddAll(face, [this](double d, double s) { return OneSided(d, s); });
-    AddAll(e_.passed_, [this](double d, double s) { return OneSided(-d, s); });
-    AddAll(e_.inside_, [this](double d, double s) { return Inside(d, s); });
+      : e_(evidence), options_(options), by_wall_(evidence.bins_, 0.0), by_passed_(evidence.bins_, 0.0) {
+    for (const JambEvidence::Histogram& face : e_.faces_) AddAll(face, [this](double d, double s) { return OneSided(d, s); }, by_wall_);
+    AddAll(e_.inside_, [this](double d, double s) { return Inside(d, s); }, by_wall_);
+    AddAll(e_.passed_, [this](double d, double s) { return OneSided(-d, s); }, by_passed_);
   }
 
   JambEstimate Run(double planned_step_m) {
-    JambEstimate out;
-    const double most = *std::max_element(log_likelihood_.begin(), log_likelihood_.end());
-    double sum = 0, mean = 0, square = 0;
-    for (size_t i = 0; i < log_likelihood_.size(); ++i) {
-      const double p = std::exp((log_likelihood_[i] - most) / options_.correlation), x = X(i);
-      sum += p;
-      mean += p * x;
-      square += p * x * x;
-    }
-    out.x_m = mean / sum;
-    double variance_m2 = std::max(0.0, square / sum - out.x_m * out.x_m) + options_.floor_sigma_m * options_.floor_sigma_m;
+    JambEstimate out = Posterior(1, 1);
+    // Lines smear either way, and each kind pushes the jamb off by that: where one kind is many times more frequent it must not win by numbers.
+    const double wall = std::max(1.0, CountWall(out.x_m)), passed = std::max(1.0, CountPassed(out.x_m));
+    out = Posterior(std::min(1.0, passed / wall), std::min(1.0, wall / passed));
+    double variance_m2 = out.sigma_m * out.sigma_m + options_.floor_sigma_m * options_.floor_sigma_m;
     const bool border = out.x_m < -e_.outward_m_ + kBorder_m || out.x_m > e_.inward_m_ - kBorder_m;
     bool known = !border && IsSeen(out.x_m) && !IsContradicted(out.x_m);
     // Lining or lumber: the wall ends somewhere between its last face and what is seen to pass.
@@ -95,6 +89,23 @@ class JambSearch {
  private:
   [[nodiscard]] double X(size_t bin) const { return (static_cast<double>(bin) + 0.5) * JambEvidence::kBin_m - e_.outward_m_; }
 
+  [[nodiscard]] JambEstimate Posterior(double wall_weight, double passed_weight) const {
+    std::vector<double> log_p(e_.bins_);
+    for (size_t i = 0; i < log_p.size(); ++i) {
+      log_p[i] = (wall_weight * by_wall_[i] + passed_weight * by_passed_[i]) / options_.correlation;
+    }
+    const double most = *std::max_element(log_p.begin(), log_p.end());
+    double sum = 0, mean = 0, square = 0;
+    for (size_t i = 0; i < log_p.size(); ++i) {
+      const double p = std::exp(log_p[i] - most), x = X(i);
+      sum += p;
+      mean += p * x;
+      square += p * x * x;
+    }
+    mean /= sum;
+    return {false, mean, std::sqrt(std::max(0.0, square / sum - mean * mean))};
+  }
+
   // Of a line that says e >= x, d = e - x.
   [[nodiscard]] double OneSided(double d, double sigma_m) const {
     return std::log(options_.outliers + (1 - options_.outliers) * Phi(d / sigma_m));
@@ -108,7 +119,7 @@ class JambSearch {
   }
 
   template <class F>
-  void AddAll(const JambEvidence::Histogram& histogram, F&& log_of) {
+  void AddAll(const JambEvidence::Histogram& histogram, F&& log_of, std::vector<double>& out) const {
     const size_t n = e_.bins_;
     std::vector<double> table(2 * n - 1);
     for (size_t c = 0; c < histogram.size(); ++c) {
@@ -119,7 +130,7 @@ class JambSearch {
       }
       for (size_t x = 0; x < n; ++x) {
         if (counts[x] == 0) continue;
-        for (size_t e = 0; e < n; ++e) log_likelihood_[e] += counts[x] * table[e + n - 1 - x];
+        for (size_t e = 0; e < n; ++e) out[e] += counts[x] * table[e + n - 1 - x];
       }
     }
   }
@@ -133,11 +144,16 @@ class JambSearch {
     return sum;
   }
 
-  [[nodiscard]] bool IsSeen(double x_m) const {
+  // Near a jamb at x.
+  [[nodiscard]] double CountWall(double x_m) const {
     double wall = Count(e_.inside_, x_m - options_.near_m, x_m + kClear_m);
     for (const auto& face : e_.faces_) wall += Count(face, x_m - options_.near_m, x_m + kClear_m);
-    const double passed = Count(e_.passed_, x_m - kClear_m, x_m + options_.near_m);
-    return std::min(wall, passed) >= options_.min_lines && std::min(e_.wall_seen_.keyframes, e_.passed_seen_.keyframes) >= options_.min_keyframes;
+    return wall;
+  }
+  [[nodiscard]] double CountPassed(double x_m) const { return Count(e_.passed_, x_m - kClear_m, x_m + options_.near_m); }
+
+  [[nodiscard]] bool IsSeen(double x_m) const {
+    return std::min(CountWall(x_m), CountPassed(x_m)) >= options_.min_lines && std::min(e_.wall_seen_.keyframes, e_.passed_seen_.keyframes) >= options_.min_keyframes;
   }
 
   [[nodiscard]] bool IsContradicted(double x_m) const {
@@ -168,7 +184,7 @@ class JambSearch {
 
   const JambEvidence& e_;
   const JambOptions& options_;
-  std::vector<double> log_likelihood_;  // of the jamb in each bin
+  std::vector<double> by_wall_, by_passed_;  // log-likelihood of the jamb in each bin
 };
 
 std::string JambOptions::Check() const {

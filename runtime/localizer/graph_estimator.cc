@@ -292,6 +292,10 @@ struct GraphEstimator::Impl {
     told_verdict = verdict;
     // The estimate at hand may be one without covariances, and without them nothing is judged.
     const std::optional<Solution> fresh = requested && placed() ? Solved(true) : std::nullopt;
+    // Walls off, missing and unplanned wait for such a request or the end; where doorways are is part of every estimate.
+    if (changed && !fresh && placed()) {
+      changes.doorways = JudgeDoorways(mapper.graph(), plan, joint, changes.presence, options.deviations.doorways);
+    }
     const DeviationReport report = fresh ? Deviations(fresh->joint, ChangesSeen(*fresh)) : Deviations(joint, changes);
     options.on_update({stamp_s, verdict, placed() ? std::optional(T_plan_map) : std::nullopt, report, requested});
   }

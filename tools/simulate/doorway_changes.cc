@@ -181,11 +181,11 @@ std::vector<DoorwayId> InnerDoorways(const AGraph& house, StoreyId storey, const
   return out;
 }
 
-// Shifted, of another width, or both.
-DoorwayChange Draw(DoorwayId id, const Doorway& d, const SimulateOptions& options, Random& random) {
+// Shifted, of another width, or both, by up to `largest_m` each.
+DoorwayChange Draw(DoorwayId id, const Doorway& d, double largest_m, const SimulateOptions& options, Random& random) {
   const size_t kind = random.Index(3);
-  const double shift_m = random.Sign() * random.Uniform(options.min_doorway_m, options.max_doorway_m);
-  const double most_m = std::min(options.max_doorway_m, kMostNarrower * d.width_m);
+  const double shift_m = random.Sign() * random.Uniform(options.min_doorway_m, largest_m);
+  const double most_m = std::min(largest_m, kMostNarrower * d.width_m);
   const double width_m = random.Sign() * random.Uniform(std::min(options.min_doorway_m, most_m), most_m);
   return {id, kind == 1 ? 0 : shift_m, kind == 0 ? 0 : width_m};
 }
@@ -226,7 +226,9 @@ Expected<std::vector<DoorwayChange>> ChangeDoorways(StoreyId storey, const Simul
     if (changes.size() == wanted) break;
     const Doorway& d = house.doorways[id.index()];
     for (int i = 0; i < kDraws; ++i) {
-      const DoorwayChange change = Draw(id, d, options, random);
+      // Less and less, as there may be little plain wall.
+      const double largest_m = options.max_doorway_m - (options.max_doorway_m - options.min_doorway_m) * i / kDraws;
+      const DoorwayChange change = Draw(id, d, largest_m, options, random);
       const bool tight = change.width_deviation_m < 0 && d.width_m + change.width_deviation_m < kMinWidth_m;
       if (tight || !HasPlainWall(house, bodies, change)) continue;
       changes.push_back(change);

@@ -108,7 +108,7 @@ TEST(UpdateToJson, TellsOfEachSurfaceOnceUntilItChanges) {
   for (size_t i = 0; i < 2; ++i) update.deviations.surfaces[i].surface = SurfaceId(i);
   update.deviations.surfaces[1].status = SurfaceStatus::kDeviated;
   update.deviations.surfaces[1].translation_m = 0.2;
-  std::vector<SurfaceDeviation> told;
+  ToldDeviations told;
   const std::string first = UpdateToJson(update, told);
   EXPECT_EQ(first,
             "{\"t\":12.5,\"verdict\":\"localized\",\"T_plan_map\":[1.0,2.0,0.5,0.0],\"surfaces\":[{\"id\":1,\"status\":\"deviated\","

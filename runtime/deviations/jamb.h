@@ -15,7 +15,7 @@ namespace plumb::runtime {
 struct JambOptions {
   double correlation = 4;          // lines of one sweep share their errors: so many count as one
   double outliers = 0.05;          // share of lines that say nothing
-  double floor_sigma_m = 0.004;    // no number of lines makes a jamb better known than that
+  double floor_sigma_m = 0.005;    // no number of lines makes a jamb better known than that
   double max_sigma_m = 0.02;       // known worse, it is not known
   double near_m = 0.15;            // wall must be seen so near to the jamb, and something through the opening, ...
   int min_lines = 8;               // ... by so many lines ...

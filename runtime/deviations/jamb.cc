@@ -165,7 +165,8 @@ class JambSearch {
     return wrong > options_.max_contradicted * all;
   }
 
-  // How far before the jamb each face ends that was seen near it; false: they end at different places.
+  // How far before the jamb each face ends that was seen near it; false: they end at different places, and the jamb is not where it is
+  // planned, so that it may be something that stands in the opening. (One face may be hidden.)
   [[nodiscard]] bool FacesEnd(double x_m, double* beyond_m) const {
     double nearest = kFrame_m, farthest = 0;
     int seen = 0;
@@ -179,7 +180,7 @@ class JambSearch {
       farthest = std::max(farthest, x_m - end_m);
     }
     *beyond_m = seen == 0 ? 0 : std::max(0.0, nearest);
-    return seen < 2 || farthest - nearest <= options_.max_faces_apart_m;
+    return seen < 2 || farthest - nearest <= options_.max_faces_apart_m || std::abs(x_m) <= options_.max_step_m;
   }
 
   const JambEvidence& e_;

@@ -170,9 +170,13 @@ class JambSearch {
   [[nodiscard]] bool FacesEnd(double x_m, double* beyond_m) const {
     double nearest = kFrame_m, farthest = 0;
     int seen = 0;
+    double far = 0;  // lines that end on faces, but not near the jamb
     for (const auto& face : e_.faces_) {
       const double near = Count(face, x_m - kFrame_m, x_m + kClear_m);
-      if (near < options_.min_lines) continue;
+      if (near < options_.min_lines) {
+        far += Count(face, -e_.outward_m_, x_m - kFrame_m);
+        continue;
+      }
       ++seen;
       double left = std::max(3.0, kFaceEndShare * near), end_m = x_m + kClear_m;
       while (end_m > x_m - kFrame_m && Count(face, end_m, x_m + kClear_m) < left) end_m -= JambEvidence::kBin_m;
@@ -180,6 +184,7 @@ class JambSearch {
       farthest = std::max(farthest, x_m - end_m);
     }
     *beyond_m = seen == 0 ? 0 : std::max(0.0, nearest);
+    if (seen == 0) return far < options_.min_lines;  // what stands so far from the end of the wall is a leaf, or lumber
     return seen < 2 || farthest - nearest <= options_.max_faces_apart_m || std::abs(x_m) <= options_.max_step_m;
   }
 

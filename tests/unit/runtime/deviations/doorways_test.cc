@@ -18,7 +18,7 @@ void WallUp(AGraph& house, size_t doorway, double from_m, double to_m) {
   const Eigen::Vector2d through(std::abs(std::cos(d.yaw_rad)), std::abs(std::sin(d.yaw_rad))), along(through.y(), through.x());
   const double half_m = 0.5 * house.walls[d.wall.index()].thickness_m;
   const Eigen::Vector2d at = d.position.head<2>(), lo = at + from_m * along - half_m * through, hi = at + to_m * along + half_m * through;
-  AddBox(house, {lo.x(), lo.y(), 0}, {hi.x(), hi.y(), d.height_m}, test::AddElement(house, "infill", ElementKind::kWall, d.wall));
+  test::AddBox(house, {lo.x(), lo.y(), 0}, {hi.x(), hi.y(), d.height_m}, test::AddElement(house, "infill", ElementKind::kWall, d.wall));
 }
 
 TEST(JudgeDoorways, NothingIsOffInTheHouseAsPlanned) {

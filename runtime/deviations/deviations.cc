@@ -149,6 +149,7 @@ std::string DeviationOptions::Check() const {
     if (!(value >= 0)) return fmt::format("DeviationOptions.{} = {}; must be >= 0", name, value);
   }
   if (std::string fault = presence.Check(); !fault.empty()) return fault;
+  if (std::string fault = doorways.Check(); !fault.empty()) return fault;
   return unplanned.Check();
 }
 
@@ -183,6 +184,8 @@ DeviationReport AssessDeviations(const AGraph& plan, const JointResult& estimate
   }
   MarkMissing(plan, changes, report);
   report.unplanned = changes.unplanned;
+  report.doorways = changes.doorways;
+  for (size_t i = report.doorways.size(); i < plan.doorways.size(); ++i) report.doorways.push_back({.doorway = DoorwayId(i)});
   if (!report.gauge.empty()) report.gauge += CountsText(plan, report);
   for (size_t r = 0; r < plan.rooms.size(); ++r) report.rooms.push_back(DeviationOfRoom(plan, RoomId(r), report.surfaces, options));
   return report;

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "runtime/deviations/doorways.h"
 #include "runtime/deviations/unplanned_walls.h"
 #include "runtime/deviations/wall_presence.h"
 #include "runtime/optimization/joint_optimizer.h"
@@ -28,6 +29,7 @@ struct DeviationOptions {
   double max_undecided_m = 0.1;         // ... nor one that may be so far off by what was seen (95 %), whatever is likely beforehand
   PresenceOptions presence;
   UnplannedOptions unplanned;
+  DoorwayOptions doorways;
   [[nodiscard]] std::string Check() const;  // empty, or the field, its value and the rule
 };
 
@@ -57,6 +59,7 @@ struct DeviationReport {
   std::vector<SurfaceDeviation> surfaces;  // one per plan surface
   std::vector<RoomDeviation> rooms;        // one per plan room
   std::vector<UnplannedWall> unplanned;
+  std::vector<DoorwayDeviation> doorways;  // one per plan doorway
 };
 
 // What is there without a plan, and what is not there.
@@ -64,6 +67,7 @@ struct WallChanges {
   std::vector<WallPresence> presence;  // per plan wall; empty: not judged
   std::vector<UnplannedWall> unplanned;
   std::vector<bool> on_other_shape = {};  // per plan wall (planned_shapes.h); empty: not judged
+  std::vector<DoorwayDeviation> doorways = {};  // per plan doorway; empty: not judged
   [[nodiscard]] bool IsMissing(WallId wall) const {
     return wall.valid() && wall.index() < presence.size() && presence[wall.index()].missing;
   }

@@ -37,6 +37,18 @@ Json RoomEntry(const AGraph& plan, const RoomDeviation& d) {
   return out;
 }
 
+Json DoorwayEntry(const AGraph& plan, const DoorwayDeviation& d) {
+  const Doorway& doorway = plan.doorways[d.doorway.index()];
+  Json out;
+  out["id"] = d.doorway.value;
+  out["guid"] = TextOrNull(doorway.guid);
+  out["wall_guid"] = doorway.wall.valid() ? TextOrNull(plan.walls[doorway.wall.index()].guid) : Json(nullptr);
+  out["storey"] = doorway.storey.valid() ? Json(plan.storeys[doorway.storey.index()].name) : Json(nullptr);
+  out["width_m"] = Metres(doorway.width_m);
+  PutEstimate(d, out);
+  return out;
+}
+
 Json UnplannedEntry(const UnplannedWall& w) {
   Json out;
   out["polygon"] = Json::array();
@@ -58,6 +70,8 @@ std::string DeviationsToJson(const AGraph& plan, const DeviationReport& report) 
   for (const RoomDeviation& d : report.rooms) out["rooms"].push_back(RoomEntry(plan, d));
   out["unplanned"] = Json::array();
   for (const UnplannedWall& w : report.unplanned) out["unplanned"].push_back(UnplannedEntry(w));
+  out["doorways"] = Json::array();
+  for (const DoorwayDeviation& d : report.doorways) out["doorways"].push_back(DoorwayEntry(plan, d));
   return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -24,4 +24,16 @@ inline void PutEstimate(const SurfaceDeviation& d, Json& out) {
   out["p_deviated"] = Rounded(d.p_deviated, 1e6);
 }
 
+// Likewise of a doorway; what was not measured is null.
+inline void PutEstimate(const DoorwayDeviation& d, Json& out) {
+  const bool measured = d.status == DoorwayStatus::kAsPlanned || d.status == DoorwayStatus::kDeviated;
+  const auto metres = [measured](double v) { return measured ? Json(Metres(v)) : Json(nullptr); };
+  out["status"] = StatusName(d.status);
+  out["shift_m"] = metres(d.shift_m);
+  out["sigma_shift_m"] = metres(d.sigma_shift_m);
+  out["width_deviation_m"] = metres(d.width_deviation_m);
+  out["sigma_width_m"] = metres(d.sigma_width_m);
+  out["p_deviated"] = Rounded(d.p_deviated, 1e6);
+}
+
 }  // namespace plumb::runtime

@@ -13,22 +13,28 @@ namespace plumb::runtime {
 struct Sight {
   Eigen::Vector3d from, to;
   uint32_t keyframe = 0;
+  // How far the sensor moved until its next sweep that the map has points of: it was somewhere on that way.
+  Eigen::Vector3d step = Eigen::Vector3d::Zero();
 };
 
 inline constexpr size_t kSightsPerKeyframe = 6000;
 
-// An even sample of each keyframe's points, in the map's order. Merged keyframes have none: those they were merged into saw the same.
+// An even sample of each keyframe's points, at most `per_keyframe`, in the map's order. Merged keyframes have none: those they were merged into saw the same.
 template <class F>
-void ForEachSight(const SGraph& map, const Eigen::Isometry3d& T_plan_map, F&& visit) {
+void ForEachSight(const SGraph& map, const Eigen::Isometry3d& T_plan_map, F&& visit,
+                  size_t per_keyframe = kSightsPerKeyframe) {
   for (const Keyframe& keyframe : map.keyframes) {
     if (keyframe.merged) continue;
     const Eigen::Isometry3d T = T_plan_map * keyframe.T_map_kf;
-    const size_t step = std::max<size_t>(1, (keyframe.points.size() + kSightsPerKeyframe - 1) / kSightsPerKeyframe);
+    const size_t step = std::max<size_t>(1, (keyframe.points.size() + per_keyframe - 1) / per_keyframe);
     size_t next = 0;
     Sight sight{T.translation(), {}, keyframe.id};
     for (size_t i = 0; i < keyframe.points.size(); i += step) {
       for (; next < keyframe.standpoints.size() && keyframe.standpoints[next].first_point <= i; ++next) {
+        const size_t other = next + 1 < keyframe.standpoints.size() ? next + 1 : next - std::min<size_t>(next, 1);
+        const Eigen::Vector3f step_kf = keyframe.standpoints[other].sensor - keyframe.standpoints[next].sensor;
         sight.from = T * keyframe.standpoints[next].sensor.cast<double>();
+        sight.step = T.linear() * (other > next ? step_kf : Eigen::Vector3f(-step_kf)).cast<double>();
       }
       sight.to = T * keyframe.points[i].cast<double>();
       visit(static_cast<const Sight&>(sight));

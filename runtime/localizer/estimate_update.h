@@ -26,9 +26,14 @@ struct EstimateUpdate {
 // Called on the thread that works on the graph, which waits for it.
 using UpdateSink = std::function<void(const EstimateUpdate&)>;
 
-// One line of JSON, with the line's end: t, verdict, T_plan_map as [x, y, z, yaw_deg] or null, and those surfaces that differ from what was
-// told before by status, 1 mm, 0.1 deg or 0.01 of probability. `told`: what the lines so far said, empty before the first; brought up to
-// date.
-[[nodiscard]] std::string UpdateToJson(const EstimateUpdate& update, std::vector<SurfaceDeviation>& told);
+// What the lines so far said; empty before the first.
+struct ToldDeviations {
+  std::vector<SurfaceDeviation> surfaces;
+  std::vector<DoorwayDeviation> doorways;
+};
+
+// One line of JSON, with the line's end: t, verdict, T_plan_map as [x, y, z, yaw_deg] or null, and those surfaces and doorways that differ
+// from what was told before by status, 1 mm, 0.1 deg or 0.01 of probability. `told` is brought up to date.
+[[nodiscard]] std::string UpdateToJson(const EstimateUpdate& update, ToldDeviations& told);
 
 }  // namespace plumb::runtime

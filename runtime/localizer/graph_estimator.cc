@@ -75,6 +75,7 @@ struct GraphEstimator::Impl {
   std::vector<SurfaceDeviation> earlier_surfaces;
   std::vector<RoomDeviation> earlier_rooms;
   std::vector<UnplannedWall> earlier_unplanned;
+  std::vector<DoorwayDeviation> earlier_doorways;
   bool news = false;  // solved since the last update
   Verdict told_verdict = Verdict::kSearching;
   std::atomic<bool> update_requested = false;
@@ -169,6 +170,7 @@ struct GraphEstimator::Impl {
     if (std::any_of(joint.walls.begin(), joint.walls.end(), is_missing)) Optimize(true);
     changes.unplanned = FindUnplannedWalls(mapper.graph(), plan, matches, joint, options.deviations.unplanned);
     changes.on_other_shape = LieOnOtherShapes(mapper.graph(), plan, matches, joint);
+    changes.doorways = JudgeDoorways(mapper.graph(), plan, joint, changes.presence, options.deviations.doorways);
   }
 
   // Without a plan the map can at least be made consistent by itself.
@@ -267,6 +269,7 @@ struct GraphEstimator::Impl {
     earlier_surfaces = std::move(report.surfaces);
     earlier_rooms = std::move(report.rooms);
     earlier_unplanned = std::move(report.unplanned);
+    earlier_doorways = std::move(report.doorways);
   }
 
   [[nodiscard]] Trajectory SmoothedPoses() const {
@@ -289,14 +292,21 @@ struct GraphEstimator::Impl {
     told_verdict = verdict;
     // The estimate at hand may be one without covariances, and without them nothing is judged.
     const std::optional<Solution> fresh = requested && placed() ? Solved(true) : std::nullopt;
+    // Walls off, missing and unplanned wait for such a request or the end; where doorways are is part of every estimate.
+    if (changed && !fresh && placed()) {
+      changes.doorways = JudgeDoorways(mapper.graph(), plan, joint, changes.presence, options.deviations.doorways);
+    }
     const DeviationReport report = fresh ? Deviations(fresh->joint, ChangesSeen(*fresh)) : Deviations(joint, changes);
     options.on_update({stamp_s, verdict, placed() ? std::optional(T_plan_map) : std::nullopt, report, requested});
   }
 
   [[nodiscard]] WallChanges ChangesSeen(const Solution& solution) const {
-    return {JudgePresence(mapper.graph(), plan, solution.joint, options.deviations.presence),
-            FindUnplannedWalls(mapper.graph(), plan, solution.matches, solution.joint, options.deviations.unplanned),
-            LieOnOtherShapes(mapper.graph(), plan, solution.matches, solution.joint)};
+    WallChanges seen;
+    seen.presence = JudgePresence(mapper.graph(), plan, solution.joint, options.deviations.presence);
+    seen.unplanned = FindUnplannedWalls(mapper.graph(), plan, solution.matches, solution.joint, options.deviations.unplanned);
+    seen.on_other_shape = LieOnOtherShapes(mapper.graph(), plan, solution.matches, solution.joint);
+    seen.doorways = JudgeDoorways(mapper.graph(), plan, solution.joint, seen.presence, options.deviations.doorways);
+    return seen;
   }
 
   [[nodiscard]] DeviationReport Deviations(const JointResult& estimate, const WallChanges& seen) const {
@@ -308,6 +318,9 @@ struct GraphEstimator::Impl {
     }
     for (size_t i = 0; i < earlier_rooms.size(); ++i) {
       if (report.rooms[i].status == SurfaceStatus::kUnobserved) report.rooms[i] = earlier_rooms[i];
+    }
+    for (size_t i = 0; i < earlier_doorways.size(); ++i) {
+      if (report.doorways[i].status == DoorwayStatus::kUnobserved) report.doorways[i] = earlier_doorways[i];
     }
     for (const UnplannedWall& wall : earlier_unplanned) {
       if (std::none_of(changes.unplanned.begin(), changes.unplanned.end(), [&](const UnplannedWall& w) { return SameWall(w, wall); })) {

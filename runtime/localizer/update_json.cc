@@ -16,6 +16,19 @@ bool IsNews(const SurfaceDeviation& now, const SurfaceDeviation& told) {
          std::abs(now.rotation_rad - told.rotation_rad) >= kNews_rad || std::abs(now.p_deviated - told.p_deviated) >= kNewsProbability;
 }
 
+bool IsNews(const DoorwayDeviation& now, const DoorwayDeviation& told) {
+  return now.status != told.status || std::abs(now.shift_m - told.shift_m) >= kNews_m ||
+         std::abs(now.sigma_shift_m - told.sigma_shift_m) >= kNews_m || std::abs(now.width_deviation_m - told.width_deviation_m) >= kNews_m ||
+         std::abs(now.sigma_width_m - told.sigma_width_m) >= kNews_m || std::abs(now.p_deviated - told.p_deviated) >= kNewsProbability;
+}
+
+Json DoorwayEntry(const DoorwayDeviation& d) {
+  Json out;
+  out["id"] = d.doorway.value;
+  PutEstimate(d, out);
+  return out;
+}
+
 Json SurfaceEntry(const SurfaceDeviation& d) {
   Json out;
   out["id"] = d.surface.value;
@@ -23,10 +36,22 @@ Json SurfaceEntry(const SurfaceDeviation& d) {
   return out;
 }
 
+// Those that are news, which `told` then has.
+template <class T, class F>
+Json News(const std::vector<T>& now, std::vector<T>& told, F&& entry_of) {
+  told.resize(now.size());
+  Json out = Json::array();
+  for (size_t i = 0; i < told.size(); ++i) {
+    if (!IsNews(now[i], told[i])) continue;
+    told[i] = now[i];
+    out.push_back(entry_of(told[i]));
+  }
+  return out;
+}
+
 }  // namespace
 
-std::string UpdateToJson(const EstimateUpdate& update, std::vector<SurfaceDeviation>& told) {
-  told.resize(update.deviations.surfaces.size());
+std::string UpdateToJson(const EstimateUpdate& update, ToldDeviations& told) {
   Json out;
   out["t"] = Rounded(update.stamp_s, 1e6);
   out["verdict"] = VerdictName(update.verdict);
@@ -36,12 +61,8 @@ std::string UpdateToJson(const EstimateUpdate& update, std::vector<SurfaceDeviat
     const Eigen::Matrix3d R = update.T_plan_map->linear();
     out["T_plan_map"] = {Metres(t.x()), Metres(t.y()), Metres(t.z()), Degrees(std::atan2(R(1, 0), R(0, 0)))};
   }
-  out["surfaces"] = Json::array();
-  for (size_t i = 0; i < told.size(); ++i) {
-    if (!IsNews(update.deviations.surfaces[i], told[i])) continue;
-    told[i] = update.deviations.surfaces[i];
-    out["surfaces"].push_back(SurfaceEntry(told[i]));
-  }
+  out["surfaces"] = News(update.deviations.surfaces, told.surfaces, SurfaceEntry);
+  out["doorways"] = News(update.deviations.doorways, told.doorways, DoorwayEntry);
   return out.dump() + "\n";
 }
 

@@ -86,6 +86,7 @@ Evaluation Evaluate(const Run& run, const Truth& truth, const EvaluateOptions& o
   out.walls = CompareWalls(truth, run.deviations, options.min_points);
   out.missing = CompareMissing(truth, run.deviations, options.min_points, out.localized_scans > 0);
   out.unplanned = CompareUnplanned(truth, run.deviations, options.min_points, out.localized_scans > 0);
+  out.doorways = CompareDoorways(truth, run.deviations, options.min_points, out.localized_scans > 0);
   return out;
 }
 

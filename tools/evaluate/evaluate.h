@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "schema/error.h"
+#include "tools/evaluate/doorway_results.h"
 #include "tools/evaluate/pose_errors.h"
 #include "tools/evaluate/truth.h"
 #include "tools/evaluate/wall_changes.h"
@@ -35,6 +36,7 @@ struct Evaluation {
   bool has_walls = false;                      // the recording says how the walls were built
   std::vector<WallResult> walls;
   std::vector<ChangeResult> missing, unplanned;
+  DoorwayScore doorways;
 
   [[nodiscard]] double localized_ratio() const {
     return scans == 0 ? 0 : static_cast<double>(localized_scans) / static_cast<double>(scans);

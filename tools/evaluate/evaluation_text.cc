@@ -70,6 +70,51 @@ void WriteChanges(const std::string& name, const std::vector<ChangeResult>& resu
   }
 }
 
+// None where the recording does not say how doorways were built.
+void WriteDoorways(const DoorwayScore& score, std::string& out) {
+  if (score.measured == 0 && score.results.empty()) return;
+  auto write = std::back_inserter(out);
+  fmt::format_to(write, "{:<22} {} found, {} inaccurate, {} missed, {} unjudged, {} unobserved, {} false; {} measured, error {:.3f} m mean, {:.3f} m max, "
+                 "{:.0f} % within 2 sigma\n", "deviated doorways", score.Count(WallOutcome::kFound), score.Count(WallOutcome::kInaccurate),
+                 score.Count(WallOutcome::kMissed), score.Count(WallOutcome::kUnjudged), score.Count(WallOutcome::kUnobserved),
+                 score.Count(WallOutcome::kFalse), score.measured, score.mean_error_m, score.max_error_m, 100 * score.coverage);
+  for (const DoorwayResult& r : score.results) {
+    fmt::format_to(write, "  {:<24} {:<10} shift {:+.3f} m, width {:+.3f} m", r.guid.empty() ? fmt::format("doorway {}", r.id.value) : r.guid,
+                   WallOutcomeName(r.outcome), r.true_shift_m, r.true_width_deviation_m);
+    if (r.measured) {
+      fmt::format_to(write, "; measured {:+.3f} +- {:.3f}, {:+.3f} +- {:.3f}", r.shift_m, r.sigma_shift_m, r.width_deviation_m, r.sigma_width_m);
+    }
+    out += "\n";
+  }
+}
+
+Json DoorwayToJson(const DoorwayResult& r) {
+  Json out = {{"id", r.id.value}, {"guid", r.guid}, {"outcome", WallOutcomeName(r.outcome)}, {"true_shift_m", r.true_shift_m},
+              {"true_width_deviation_m", r.true_width_deviation_m}};
+  if (r.measured) {
+    out["shift_m"] = r.shift_m;
+    out["sigma_shift_m"] = r.sigma_shift_m;
+    out["width_deviation_m"] = r.width_deviation_m;
+    out["sigma_width_m"] = r.sigma_width_m;
+  }
+  return out;
+}
+
+void WriteDoorways(const DoorwayScore& score, Json& out) {
+  for (const WallOutcome outcome : {WallOutcome::kFound, WallOutcome::kMissed, WallOutcome::kInaccurate, WallOutcome::kUnjudged,
+                                    WallOutcome::kUnobserved, WallOutcome::kFalse}) {
+    out[std::string("doorways_") + WallOutcomeName(outcome)] = score.Count(outcome);
+  }
+  out["doorways_measured"] = score.measured;
+  out["doorways_recall"] = score.recall;
+  out["doorways_precision"] = score.precision;
+  out["doorways_mean_error_m"] = score.mean_error_m;
+  out["doorways_max_error_m"] = score.max_error_m;
+  out["doorways_coverage"] = score.coverage;
+  out["doorways"] = Json::array();
+  for (const DoorwayResult& r : score.results) out["doorways"].push_back(DoorwayToJson(r));
+}
+
 void WriteWalls(const Evaluation& e, std::string& out) {
   auto write = std::back_inserter(out);
   fmt::format_to(write, "{:<22} {} found, {} inaccurate, {} missed, {} unjudged, {} unobserved, {} false\n", "deviated walls",
@@ -77,6 +122,7 @@ void WriteWalls(const Evaluation& e, std::string& out) {
                  e.CountWalls(WallOutcome::kUnjudged), e.CountWalls(WallOutcome::kUnobserved), e.CountWalls(WallOutcome::kFalse));
   out += ChangesLine("missing walls", e.missing);
   out += ChangesLine("unplanned walls", e.unplanned);
+  WriteDoorways(e.doorways, out);
   if (e.walls.empty()) return;
   fmt::format_to(write, "\n{:<24} {:>7} {:<10} {:>10} {:>20} {:>10} {:>9} {:>9} {:>9}\n", "wall", "surface", "outcome", "truth m",
                  "measured m", "error m", "truth deg", "meas. deg", "error deg");
@@ -139,6 +185,7 @@ std::string EvaluationToJson(const Evaluation& e) {
   for (const WallResult& w : e.walls) out["walls"].push_back(WallToJson(w));
   WriteChanges("missing", e.missing, out);
   WriteChanges("unplanned", e.unplanned, out);
+  WriteDoorways(e.doorways, out);
   return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -58,6 +58,9 @@ Expected<Truth> ParseTruth(const std::string& json, const std::string& source) {
       if (truth.unplanned.back().polygon.size() < 3)
         return Fail(ErrorCode::kNotARecording, fmt::format("`{}`: a polygon of `unplanned` has fewer than 3 corners", source));
     }
+    for (const Json& d : root.value("doorways", Json::array())) {
+      truth.doorways.push_back({DoorwayId(d.at("id").get<uint32_t>()), d.value("guid", ""), d.at("shift_m"), d.at("width_deviation_m"), d.at("rays_through")});
+    }
     const Json points = root.value("surface_points", Json::object());
     for (const auto& [key, count] : points.items()) {
       uint32_t id = 0;

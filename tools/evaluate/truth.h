@@ -38,11 +38,21 @@ struct UnplannedTruth {
   double points = 0;                     // returns from it
 };
 
+// A doorway as built.
+struct DoorwayTruth {
+  DoorwayId id;
+  std::string guid;
+  double shift_m = 0;            // along its wall, + to the left of who passes from room_a to room_b
+  double width_deviation_m = 0;  // + wider
+  double rays_through = 0;
+};
+
 struct Truth {
   runtime::Trajectory trajectory;             // sensor in the plan frame
   std::vector<WallTruth> walls;               // in the file's order; walls that are not listed are as planned
   std::vector<MissingTruth> missing;
   std::vector<UnplannedTruth> unplanned;
+  std::vector<DoorwayTruth> doorways;         // all that may be judged; empty: not recorded
   std::map<SurfaceId, double> surface_points; // returns that hit each surface; empty: not recorded
   std::string plan_source_sha256;             // of the plan that the recording was simulated in; empty: not recorded
   bool has_walls = false;                     // false: the recording has no truth.json

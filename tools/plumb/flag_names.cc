@@ -37,6 +37,7 @@ constexpr auto kFlags = std::to_array<std::pair<std::string_view, std::string_vi
     {"SimulateOptions.deviate", "--deviate"},
     {"SimulateOptions.missing", "--missing"},
     {"SimulateOptions.unplanned", "--unplanned"},
+    {"SimulateOptions.doorways", "--doorways"},
     {"SimulateOptions.sensor", "--sensor"},
     {"SimulateOptions.noise_m", "--noise"},
     {"SimulateOptions.speed_m_s", "--speed"},

@@ -23,7 +23,7 @@ constexpr std::string_view kAnyStorey = "-1";  // the one with most rooms
 
 struct SimulateFlags {
   std::string plan, output;
-  std::string deviate = "3";
+  std::string deviate = "3", doorways = "0", doorway_m = "0.03:0.3";
   std::string storey;  // empty: the one with most rooms
   std::string translation = "0.05:0.35", rotation_deg = "0:5";
   bool force = false, duration_given = false;
@@ -40,21 +40,29 @@ std::optional<std::pair<double, double>> ParseRange(const std::string& text) {
   return std::pair(lo, hi);
 }
 
+// "3", or "25%" of those that may be.
+Expected<void> ParseCount(const char* flag, const std::string& text, int& count, double& ratio) {
+  const bool share = !text.empty() && text.back() == '%';
+  count = 0;
+  if (share ? CLI::detail::lexical_cast(text.substr(0, text.size() - 1), ratio) && ratio >= 0 && ratio <= 100
+            : CLI::detail::lexical_cast(text, count)) {
+    ratio = share ? ratio / 100 : 0;
+    return {};
+  }
+  return Fail(ErrorCode::kBadOption, fmt::format("{} {}; must be a number, or a share from 0% to 100%", flag, text));
+}
+
 Expected<SimulateOptions> OptionsOf(const SimulateFlags& flags) {
   SimulateOptions options = flags.options;
-  if (!flags.deviate.empty() && flags.deviate.back() == '%') {
-    if (!CLI::detail::lexical_cast(flags.deviate.substr(0, flags.deviate.size() - 1), options.deviate_ratio) ||
-        !(options.deviate_ratio >= 0 && options.deviate_ratio <= 100)) {
-      return Fail(ErrorCode::kBadOption, fmt::format("--deviate {}; must be a number, or a share from 0% to 100%", flags.deviate));
-    }
-    options.deviate_ratio /= 100;
-    options.deviate = 0;
-  } else if (!CLI::detail::lexical_cast(flags.deviate, options.deviate)) {
-    return Fail(ErrorCode::kBadOption, fmt::format("--deviate {}; must be a number, or a share from 0% to 100%", flags.deviate));
-  }
+  if (const auto parsed = ParseCount("--deviate", flags.deviate, options.deviate, options.deviate_ratio); !parsed)
+    return tl::unexpected(parsed.error());
+  if (const auto parsed = ParseCount("--doorways", flags.doorways, options.doorways, options.doorways_ratio); !parsed)
+    return tl::unexpected(parsed.error());
   const auto translation = ParseRange(flags.translation), rotation = ParseRange(flags.rotation_deg);
   if (!translation) return Fail(ErrorCode::kBadOption, fmt::format("--translation {}; must be LEAST:MOST in metres", flags.translation));
   if (!rotation) return Fail(ErrorCode::kBadOption, fmt::format("--rotation {}; must be LEAST:MOST in degrees", flags.rotation_deg));
+  const auto doorway = ParseRange(flags.doorway_m);
+  if (!doorway) return Fail(ErrorCode::kBadOption, fmt::format("--doorway-shift {}; must be LEAST:MOST in metres", flags.doorway_m));
   const auto within = [](const std::pair<double, double>& range, double most) {
     return range.first >= 0 && range.second >= range.first && range.second <= most;
   };
@@ -62,6 +70,9 @@ Expected<SimulateOptions> OptionsOf(const SimulateFlags& flags) {
     return Fail(ErrorCode::kBadOption, fmt::format("--translation {}; must be within 0:2 m, the least first", flags.translation));
   if (!within(*rotation, 30))
     return Fail(ErrorCode::kBadOption, fmt::format("--rotation {}; must be within 0:30 deg, the least first", flags.rotation_deg));
+  if (!within(*doorway, 1))
+    return Fail(ErrorCode::kBadOption, fmt::format("--doorway-shift {}; must be within 0:1 m, the least first", flags.doorway_m));
+  std::tie(options.min_doorway_m, options.max_doorway_m) = *doorway;
   constexpr double kRadPerDeg = std::numbers::pi / 180;
   std::tie(options.min_translation_m, options.max_translation_m) = *translation;
   options.min_rotation_rad = rotation->first * kRadPerDeg;
@@ -101,9 +112,11 @@ Status RunSimulate(const SimulateFlags& flags, Session& session) {
   const auto done = Simulate(*plan, *options, flags.output, [&](size_t i, size_t n) { session.console.Progress("simulating", i, n); });
   if (!done) return session.Fail(done.error());
   session.console.Info(
-      fmt::format("{}: {} scans in {:.1f} s over {:.1f} m, {} of {} rooms visited, {} walls off their plan, {} missing, {} unplanned",
+      fmt::format("{}: {} scans in {:.1f} s over {:.1f} m, {} of {} rooms visited, {} walls off their plan, {} missing, {} unplanned, {} "
+                  "doorways elsewhere",
                   flags.output, done->scans, done->duration_s, done->path_m, done->visited.size(),
-                  done->visited.size() + done->not_visited.size(), done->walls.size(), done->missing.size(), done->unplanned.size()));
+                  done->visited.size() + done->not_visited.size(), done->walls.size(), done->missing.size(), done->unplanned.size(),
+                  done->doorways_changed));
   return Status::kFine;
 }
 
@@ -126,6 +139,11 @@ void AddSimulate(CLI::App& app, Session& session) {
       ->type_name("N|N%");
   sub->add_option("--missing", o.missing, "number of planned walls that are not built");
   sub->add_option("--unplanned", o.unplanned, "number of walls that are built and not in the plan");
+  sub->add_option("--doorways", flags->doorways,
+                  "doorways that are elsewhere in their wall, narrower or wider: their number, or a share of those that may be (25%)")
+      ->type_name("N|N%");
+  sub->add_option("--doorway-shift", flags->doorway_m, "least and largest shift of such a doorway, and change of its width, m")
+      ->type_name("LEAST:MOST");
   sub->add_option("--translation", flags->translation, "least and largest displacement of such a wall, m")->type_name("LEAST:MOST");
   sub->add_option("--rotation", flags->rotation_deg, "least and largest turn of such a wall, deg")->type_name("LEAST:MOST");
   sub->add_option("--sensor", o.sensor, "one of " + sensors);

@@ -27,7 +27,7 @@ class UpdateWriter {
   const AGraph& plan_;
   std::string stream_path_, deviations_path_;
   std::ofstream stream_;
-  std::vector<runtime::SurfaceDeviation> told_;
+  runtime::ToldDeviations told_;
   std::optional<Error> failure_;
 };
 

@@ -13,6 +13,7 @@
 #include "tools/drawing/room_labels.h"
 #include "tools/drawing/svg.h"
 #include "tools/report/deviation_overlay.h"
+#include "tools/report/doorway_overlay.h"
 #include "tools/report/place_overlay.h"
 #include "tools/report/report_page.h"
 #include "tools/report/trajectory_overlay.h"
@@ -40,6 +41,10 @@ std::string Tiles(const RunInfo& info, const Deviations& deviations, const std::
   const double ratio = info.scans == 0 ? 0 : 100.0 * static_cast<double>(info.localized_scans) / static_cast<double>(info.scans);
   out += Tile(fmt::format("{:.0f} %", ratio), fmt::format("of {} scans localized", info.scans));
   out += Tile(fmt::format("{} of {}", deviated, observed), "observed walls deviate");
+  const auto doorways = [&](auto&& counts) { return std::count_if(deviations.doorways.begin(), deviations.doorways.end(), counts); };
+  out += Tile(fmt::format("{} of {}", doorways([](const DoorwayEntry& d) { return d.status == "deviated" || d.status == "missing"; }),
+                          doorways([](const DoorwayEntry& d) { return d.status != "unobserved"; })),
+              "observed doorways deviate");
   out += Tile(deviated > 0 ? Signed(100 * rows.front().surface->translation_m, 1) + " cm" : "none", "largest deviation");
   out += Tile(fmt::format("{}, {}", count("missing"), deviations.unplanned.size()), "walls missing, walls in no plan");
   out += Tile(Signed(100 * info.range_bias_m, 1) + " cm", "range bias of the sensor");
@@ -84,7 +89,7 @@ std::string Figure(const AGraph& plan, StoreyId storey, const Run& run, const st
       EscapeXml(plan.storeys[storey.index()].name), Decimal(sheet.width()), Decimal(sheet.height()), DrawFloorPlan(plan, storey, sheet),
       DrawSurfaces(plan, storey, run.deviations, limit_m, sheet) + DrawUnplanned(plan, storey, run.deviations, sheet),
       DrawTrajectory(plan, storey, run, sheet) + (open ? DrawPlaces(plan, storey, *open, sheet) : ""), DrawRoomLabels(plan, storey, sheet),
-      DrawWallNumbers(plan, storey, rows, sheet), DrawScaleBar(sheet, 30, sheet.height() - 45));
+      DrawWallNumbers(plan, storey, rows, sheet) + DrawDoorways(plan, storey, run.deviations, sheet), DrawScaleBar(sheet, 30, sheet.height() - 45));
 }
 
 // Storeys that the robot was or may be on; all of them where nothing is known.
@@ -232,6 +237,9 @@ std::string CheckIds(const AGraph& plan, const Deviations& deviations) {
   for (const RoomEntry& r : deviations.rooms) {
     if (r.id.index() >= plan.rooms.size()) return fmt::format("room {}", r.id.value);
   }
+  for (const DoorwayEntry& d : deviations.doorways) {
+    if (d.id.index() >= plan.doorways.size()) return fmt::format("doorway {}", d.id.value);
+  }
   for (const UnplannedEntry& w : deviations.unplanned) {
     if (w.room.valid() && w.room.index() >= plan.rooms.size()) return fmt::format("room {}", w.room.value);
   }
@@ -253,9 +261,9 @@ Expected<std::string> RunToHtml(const AGraph& plan, const Run& run, const RunInf
       "<p class=\"sub\">where the robot was, and how far each wall stands from where the plan has "
       "it</p>\n{5}{6}<h2>Plan</h2>\n{7}{8}{9}{10}"
       "<script>\n{11}</script>\n</body></html>\n",
-      title, FloorPlanStyle(), DeviationStyle(), TrajectoryStyle() + PlaceStyle(), PageStyle(), Tiles(info, run.deviations, rows),
+      title, FloorPlanStyle(), DeviationStyle() + DoorwayStyle(), TrajectoryStyle() + PlaceStyle(), PageStyle(), Tiles(info, run.deviations, rows),
       Notes(info, run.deviations), Figures(plan, run, rows) + (OpenTry(run) ? PlacesHtml(*OpenTry(run)) : ""),
-      WallTable(plan, rows) + UnplannedTable(plan, run.deviations), RoomTable(plan, run.deviations), Footer(info), PageScript());
+      WallTable(plan, rows) + DoorwayTable(plan, run.deviations) + UnplannedTable(plan, run.deviations), RoomTable(plan, run.deviations), Footer(info), PageScript());
 }
 
 }  // namespace plumb::tools

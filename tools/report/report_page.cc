@@ -68,6 +68,7 @@ std::string LegendHtml(double limit_m) {
 <span><svg width="28" height="12"><path d="M2 6H28" stroke="#8b939b" stroke-width="2.5" stroke-dasharray="2 8" stroke-linecap="round"/></svg>not observed</span>
 <span><svg width="28" height="12"><rect x="2" y="2" width="24" height="8" stroke="#d32f2f" stroke-width="2" stroke-dasharray="5 3" fill="none"/></svg>missing: planned, not built</span>
 <span><svg width="28" height="12"><rect x="2" y="2" width="24" height="8" fill="#1565c0"/></svg>built, in no plan</span>
+<span><svg width="28" height="12"><rect x="2" y="2" width="24" height="8" stroke="#b8860b" stroke-width="2" fill="#ffd54f"/></svg>doorway as built, elsewhere or of another width</span>
 <span><svg width="60" height="12"><defs><linearGradient id="time">{2}</linearGradient></defs><rect y="3" width="60" height="6" fill="url(#time)"/></svg>way, from start to end</span>
 </div>
 <div class="legend screen"><span>deviations drawn <label><input type="radio" name="times" value="1" checked> to scale</label>

@@ -87,6 +87,20 @@ UnplannedEntry ParseUnplanned(const Json& json) {
   return wall;
 }
 
+DoorwayEntry ParseDoorway(const Json& json) {
+  DoorwayEntry d;
+  d.id = DoorwayId(json.at("id").get<uint32_t>());
+  json.at("status").get_to(d.status);
+  Get(json, "guid", d.guid);
+  Get(json, "width_m", d.width_m);
+  Get(json, "shift_m", d.shift_m);
+  Get(json, "sigma_shift_m", d.sigma_shift_m);
+  Get(json, "width_deviation_m", d.width_deviation_m);
+  Get(json, "sigma_width_m", d.sigma_width_m);
+  Get(json, "p_deviated", d.p_deviated);
+  return d;
+}
+
 // Before the first fix there is no trajectory, and the file holds nothing.
 Expected<runtime::Trajectory> ReadRunTrajectory(const std::string& path) {
   const auto text = ReadFileText(path);
@@ -138,6 +152,7 @@ Expected<Deviations> ParseDeviations(const std::string& json, const std::string&
       if (out.unplanned.back().polygon.size() < 3)
         return Fail(ErrorCode::kBadRunFolder, fmt::format("`{}`: a polygon of `unplanned` has fewer than 3 corners", source));
     }
+    for (const Json& doorway : root.value("doorways", Json::array())) out.doorways.push_back(ParseDoorway(doorway));
     return out;
   } catch (const Json::exception& e) {
     return Fail(ErrorCode::kBadRunFolder, fmt::format("`{}` is no deviations file: {}", source, e.what()));

@@ -49,11 +49,21 @@ struct UnplannedEntry {
   RoomId room;  // that it stands in
 };
 
+// Of a doorway: what is not known is 0.
+struct DoorwayEntry {
+  DoorwayId id;
+  std::string guid, status;  // as_planned | deviated | missing (walled up) | unobserved
+  double width_m = 0;        // planned
+  double shift_m = 0, sigma_shift_m = 0;  // along its wall, + to the left of who passes from room_a to room_b
+  double width_deviation_m = 0, sigma_width_m = 0, p_deviated = 0;
+};
+
 struct Deviations {
   std::string gauge;
   std::vector<SurfaceEntry> surfaces;
   std::vector<RoomEntry> rooms;
   std::vector<UnplannedEntry> unplanned = {};
+  std::vector<DoorwayEntry> doorways = {};  // empty in older runs
 };
 
 // Text forms; stamps with nine decimals as in scan file names.

@@ -33,9 +33,10 @@ Rectangle OpeningFootprint(const AGraph& plan, const Eigen::Vector3d& position, 
   return {position.head<2>(), {-through.y(), through.x()}, 0.5 * width_m, 0.5 * thickness_m};
 }
 
-std::vector<Rectangle> Passages(const AGraph& plan, StoreyId storey, const std::vector<Eigen::Isometry2d>& motions) {
+std::vector<Rectangle> Passages(const AGraph& plan, const std::vector<Doorway>& doorways, StoreyId storey,
+                                const std::vector<Eigen::Isometry2d>& motions) {
   std::vector<Rectangle> passages;
-  for (const Doorway& d : plan.doorways) {
+  for (const Doorway& d : doorways) {
     if (!d.room_a.valid() || !d.room_b.valid() || plan.rooms[d.room_a.index()].storey != storey) continue;
     const Rectangle floor = OpeningFootprint(plan, d.position, d.yaw_rad, d.width_m, d.wall).Grown(0, kSillDepth_m);
     passages.push_back(d.wall.valid() ? floor.Moved(motions[d.wall.index()]) : floor);
@@ -69,12 +70,17 @@ class Builder {
       : plan_(plan), storey_(storey), options_(options), bodies_(FindWallBodies(plan)),
         random_(options.seed, static_cast<uint64_t>(RandomStream::kDeviations)) {
     built_.motions.assign(plan.walls.size(), Eigen::Isometry2d::Identity());
-    built_.passages = Passages(plan, storey, built_.motions);
-    open_ = WithFloorsAndCeilings(WithInnerDoorsOpen(plan), storey, built_.passages);
-    built_.house = open_;
+    built_.doorways = plan.doorways;
+    open_ = WithInnerDoorsOpen(plan);
   }
 
   Expected<AsBuilt> Run() {
+    Expected<std::vector<DoorwayChange>> changes = ChangeDoorways(storey_, options_, bodies_, open_, built_.doorways);
+    if (!changes) return tl::unexpected(changes.error());
+    built_.doorway_changes = std::move(*changes);
+    built_.passages = Passages(plan_, built_.doorways, storey_, built_.motions);
+    open_ = WithFloorsAndCeilings(std::move(open_), storey_, built_.passages);
+    built_.house = open_;
     if (options_.deviate == 0 && options_.deviate_ratio == 0) return std::move(built_);
     const FreeSpace space(open_, storey_, built_.passages);
     if (space.size() == 0) return Fail(ErrorCode::kPlanUnsuitable, "the storey has no rooms, or more than 400 m x 400 m of them");
@@ -144,7 +150,7 @@ class Builder {
       if (RunsIntoSomething(candidate.wall, motions) || OpensAJoint(candidate.wall, motions)) continue;
       AsBuilt attempt = built_;
       attempt.motions = std::move(motions);
-      attempt.passages = Passages(plan_, storey_, attempt.motions);
+      attempt.passages = Passages(plan_, built_.doorways, storey_, attempt.motions);
       attempt.house.mesh = MoveWalls(open_, bodies_, attempt.motions);
       if (!IsLivable(attempt)) continue;
       WallDisplacement wall{WallId(candidate.wall), candidate.reference, shift_m, yaw_rad, {}};
@@ -173,7 +179,7 @@ class Builder {
       if (elsewhere || !host.valid() || host.index() == wall) return false;
       return Overlap(moved, OpeningFootprint(plan_, position, yaw_rad, width_m, host).Moved(motions[host.index()]));
     };
-    for (const Doorway& d : plan_.doorways) {
+    for (const Doorway& d : built_.doorways) {
       if (covers(d.position, d.yaw_rad, d.width_m, d.wall)) return true;
     }
     return std::any_of(plan_.windows.begin(), plan_.windows.end(),
@@ -217,6 +223,43 @@ class Builder {
 
 Expected<AsBuilt> BuildWithDeviations(const AGraph& plan, StoreyId storey, const SimulateOptions& options) {
   return Builder(plan, storey, options).Run();
+}
+
+namespace {
+
+// The middle of the wall's longest straight surface; of equals that with the lowest id.
+Eigen::Vector2d MiddleOf(const AGraph& plan, WallId wall) {
+  const Surface* longest = nullptr;
+  for (const Surface& s : plan.surfaces) {
+    if (s.wall == wall && !s.arc && (!longest || s.length_m() > longest->length_m() + 1e-3)) longest = &s;
+  }
+  const Wall& w = plan.walls[wall.index()];
+  return longest ? longest->midpoint() : Eigen::Vector2d(0.5 * (w.axis_start + w.axis_end));
+}
+
+}  // namespace
+
+std::vector<BuiltDoorway> DoorwaysOf(const AGraph& plan, StoreyId storey, const AsBuilt& built) {
+  const std::vector<WallBody> bodies = FindWallBodies(plan);
+  std::vector<BuiltDoorway> out;
+  for (size_t i = 0; i < plan.doorways.size(); ++i) {
+    const Doorway& d = plan.doorways[i];
+    if (d.storey != storey || !d.wall.valid() || bodies[d.wall.index()].curved) continue;
+    if (std::find(built.missing.begin(), built.missing.end(), d.wall) != built.missing.end()) continue;
+    const Eigen::Isometry2d& motion = built.motions[d.wall.index()];
+    const Eigen::Vector2d along(-std::sin(d.yaw_rad), std::cos(d.yaw_rad)), across(std::cos(d.yaw_rad), std::sin(d.yaw_rad));
+    const Eigen::Vector2d c = d.position.head<2>(), pivot = c + along.dot(MiddleOf(plan, d.wall) - c) * along;
+    const Eigen::Vector2d moved = motion * pivot - pivot, built_across = motion.linear() * across;
+    const double offset_m = built_across.dot(moved) / built_across.dot(across);
+    BuiltDoorway truth{DoorwayId(i), (motion.linear() * along).dot(moved - offset_m * across), 0, 0};
+    for (const DoorwayChange& change : built.doorway_changes) {
+      if (change.doorway != truth.doorway) continue;
+      truth.shift_m += change.shift_m;
+      truth.width_deviation_m += change.width_deviation_m;
+    }
+    out.push_back(truth);
+  }
+  return out;
 }
 
 SurfaceDisplacement DisplacementOf(const AGraph& plan, SurfaceId surface, const Eigen::Isometry2d& motion) {

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "tools/simulate/doorway_changes.h"
 #include "tools/simulate/free_space.h"
 #include "tools/simulate/reach.h"
 #include "tools/simulate/simulate.h"
@@ -23,6 +24,8 @@ struct AsBuilt {
   std::vector<WallDisplacement> walls;     // those that moved
   std::vector<WallId> missing;             // planned walls that are not there, ascending
   std::vector<AddedWall> unplanned;
+  std::vector<Doorway> doorways;           // of the plan, where they are cut into the walls as planned
+  std::vector<DoorwayChange> doorway_changes;
   std::vector<Rectangle> passages;         // the floor of the doorways between rooms of the storey
 };
 
@@ -31,6 +34,9 @@ struct AsBuilt {
 // or away from a joint, every room that could be reached still can, and no ray leaves a room where none left before. Errors:
 // kPlanUnsuitable if there are not so many such walls.
 [[nodiscard]] Expected<AsBuilt> BuildWithDeviations(const AGraph& plan, StoreyId storey, const SimulateOptions& options);
+
+// The doorways in straight walls of the storey that stand.
+[[nodiscard]] std::vector<BuiltDoorway> DoorwaysOf(const AGraph& plan, StoreyId storey, const AsBuilt& built);
 
 // What the motion of its wall makes of a surface.
 [[nodiscard]] SurfaceDisplacement DisplacementOf(const AGraph& plan, SurfaceId surface, const Eigen::Isometry2d& motion);

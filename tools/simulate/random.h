@@ -54,6 +54,6 @@ class Random {
 };
 
 // One stream for each purpose: another option for one stage must not change what the others draw.
-enum class RandomStream : uint64_t { kDeviations = 1, kClutter, kTour, kWobble, kOdometry, kMissing, kUnplanned, kSweeps = 1000 };
+enum class RandomStream : uint64_t { kDeviations = 1, kClutter, kTour, kWobble, kOdometry, kMissing, kUnplanned, kDoorways, kSweeps = 1000 };
 
 }  // namespace plumb::tools

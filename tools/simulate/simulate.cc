@@ -24,6 +24,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr size_t kRaysPerCounted = 8;  // that are tried for going through doorways
+
 // The one asked for, else the one with most rooms; none if there is no such storey with a room.
 StoreyId ChooseStorey(const AGraph& plan, int wanted) {
   std::vector<size_t> rooms(plan.storeys.size(), 0);
@@ -63,13 +65,20 @@ double StampOf(const SimulateOptions& options, const SensorModel& sensor, size_t
 // Takes and writes all sweeps. Each has a random stream of its own, so the threads' order does not matter.
 class Recorder {
  public:
-  Recorder(const AGraph& plan, const AsBuilt& built, const Drive& drive, const SensorModel& sensor, const SimulateOptions& options)
+  Recorder(const AGraph& plan, StoreyId storey, const AsBuilt& built, const Drive& drive, const SensorModel& sensor, const SimulateOptions& options)
       : plan_(plan), counter_(plan, built), drive_(drive), lidar_(built.house, sensor, options.glass_transmission), options_(options),
         house_(built.house), origin_(plan.origin), surface_points_(plan.surfaces.size(), 0), surface_scans_(plan.surfaces.size(), 0) {
     const std::vector<WallBody> bodies = FindWallBodies(plan);
     for (const WallId wall : built.missing) {
       missing_.push_back({wall, 0});
       missing_bodies_.push_back(bodies[wall.index()]);
+    }
+    for (BuiltDoorway& truth : DoorwaysOf(plan, storey, built)) {
+      const Doorway& d = built.doorways[truth.doorway.index()];
+      const Eigen::Vector2d along(-std::sin(d.yaw_rad), std::cos(d.yaw_rad));
+      const Rectangle opening{d.position.head<2>(), along, 0.5 * d.width_m, 0.5 * plan.walls[d.wall.index()].thickness_m};
+      openings_.push_back({opening.Moved(built.motions[d.wall.index()]), d.position.z(), d.position.z() + d.height_m, false});
+      doorways_.push_back(truth);
     }
     for (const AddedWall& wall : built.unplanned) {
       const auto corners = wall.footprint.Corners();
@@ -90,6 +99,7 @@ class Recorder {
     summary.surface_scans = surface_scans_;
     summary.missing = missing_;
     summary.unplanned = unplanned_;
+    summary.doorways = doorways_;
   }
 
  private:
@@ -112,16 +122,18 @@ class Recorder {
     }
     for (size_t w = 0; w < missing_.size(); ++w) missing_[w].rays_through += changes.rays_through[w];
     for (size_t w = 0; w < unplanned_.size(); ++w) unplanned_[w].points += changes.points[w];
+    for (size_t d = 0; d < doorways_.size(); ++d) doorways_[d].rays_through += changes.rays_in[d];
     points_ += sweep.scan.points.size();
     if (progress) progress(++done_, scans);
   }
 
-  // What one sweep saw of walls left out and added.
+  // What one sweep saw of walls left out and added, and of doorways.
   struct Changes {
-    std::vector<uint64_t> rays_through, points;
+    std::vector<uint64_t> rays_through, points, rays_in;
   };
   [[nodiscard]] Changes CountChanges(const Sweep& sweep, const Eigen::Vector3d& sensor) const {
-    Changes changes{std::vector<uint64_t>(missing_bodies_.size(), 0), std::vector<uint64_t>(unplanned_elements_.size(), 0)};
+    Changes changes{std::vector<uint64_t>(missing_bodies_.size(), 0), std::vector<uint64_t>(unplanned_elements_.size(), 0),
+                    std::vector<uint64_t>(openings_.size(), 0)};
     for (const Echo& echo : sweep.echoes) {
       for (size_t w = 0; w < missing_bodies_.size(); ++w) {
         changes.rays_through[w] += PassesThrough(missing_bodies_[w], sensor, echo.position.cast<double>() + origin_) ? 1 : 0;
@@ -129,6 +141,10 @@ class Recorder {
       for (size_t w = 0; w < unplanned_elements_.size(); ++w) {
         changes.points[w] += house_.mesh.triangles[echo.triangle].element == unplanned_elements_[w] ? 1 : 0;
       }
+    }
+    for (size_t i = 0; i < sweep.echoes.size(); i += kRaysPerCounted) {
+      const Eigen::Vector3d to = sweep.echoes[i].position.cast<double>() + origin_;
+      for (size_t d = 0; d < openings_.size(); ++d) changes.rays_in[d] += PassesThrough(openings_[d], sensor, to) ? 1 : 0;
     }
     return changes;
   }
@@ -141,6 +157,7 @@ class Recorder {
   const AGraph& house_;
   const Eigen::Vector3d origin_;
   std::vector<WallBody> missing_bodies_;      // of missing_
+  std::vector<WallBody> openings_;            // of doorways_, as built
   std::vector<uint32_t> unplanned_elements_;  // of unplanned_
   std::mutex mutex_;  // guards all below
   std::optional<Error> error_;
@@ -148,6 +165,7 @@ class Recorder {
   std::vector<uint32_t> surface_scans_;
   std::vector<MissingWall> missing_;
   std::vector<UnplannedWall> unplanned_;
+  std::vector<BuiltDoorway> doorways_;
   size_t points_ = 0, done_ = 0;
 };
 
@@ -182,6 +200,10 @@ std::string SimulateOptions::Check() const {
   if (!(deviate_ratio >= 0 && deviate_ratio <= 1)) return bad("deviate_ratio", deviate_ratio, "from 0 to 1");
   if (missing < 0) return bad("missing", missing, ">= 0");
   if (unplanned < 0) return bad("unplanned", unplanned, ">= 0");
+  if (doorways < 0) return bad("doorways", doorways, ">= 0");
+  if (!(doorways_ratio >= 0 && doorways_ratio <= 1)) return bad("doorways_ratio", doorways_ratio, "from 0 to 1");
+  if (!(min_doorway_m >= 0)) return bad("min_doorway_m", min_doorway_m, ">= 0");
+  if (!(max_doorway_m >= min_doorway_m && max_doorway_m <= 1)) return bad("max_doorway_m", max_doorway_m, "from min_doorway_m to 1");
   if (!(min_translation_m >= 0)) return bad("min_translation_m", min_translation_m, ">= 0");
   if (!(max_translation_m >= min_translation_m && max_translation_m <= 2)) {
     return bad("max_translation_m", max_translation_m, "from min_translation_m to 2");
@@ -214,6 +236,7 @@ Expected<SimulateSummary> Simulate(const AGraph& plan, const SimulateOptions& op
   Expected<AsBuilt> built = BuildWithDeviations(plan, summary.storey, options);
   if (!built) return tl::unexpected(built.error());
   summary.walls = built->walls;
+  summary.doorways_changed = built->doorway_changes.size();
   if (const auto done = LeaveOutWalls(plan, summary.storey, options.missing, options.seed, *built); !done)
     return tl::unexpected(done.error());
   if (const auto done = AddWalls(plan, summary.storey, options.unplanned, options.seed, *built); !done) return tl::unexpected(done.error());
@@ -236,7 +259,7 @@ Expected<SimulateSummary> Simulate(const AGraph& plan, const SimulateOptions& op
   summary.scans = static_cast<size_t>(std::floor(tour->drive.duration_s() * sensor.rate_hz));
   summary.duration_s = static_cast<double>(summary.scans) * sensor.period_s();
   if (const Expected<void> ready = PrepareFolder(folder); !ready) return tl::unexpected(ready.error());
-  Recorder recorder(plan, *built, tour->drive, sensor, options);
+  Recorder recorder(plan, summary.storey, *built, tour->drive, sensor, options);
   if (const Expected<void> run = recorder.Run(folder, summary.scans, progress); !run) return tl::unexpected(run.error());
   recorder.Report(summary);
 

@@ -20,6 +20,9 @@ struct SimulateOptions {
   double deviate_ratio = 0;                                   // ... or, if positive, this share of those that may be, as far as they can
   int missing = 0;                                            // planned walls that were not built
   int unplanned = 0;                                          // walls that were built and are not in the plan
+  int doorways = 0;                                           // doorways that are elsewhere in their wall, or narrower or wider, ...
+  double doorways_ratio = 0;                                  // ... or, if positive, this share of those that may be, as far as they can
+  double min_doorway_m = 0.03, max_doorway_m = 0.3;           // shift of the middle, and what the width is off, either way
   double min_translation_m = 0.05, max_translation_m = 0.35;  // along the wall's normal, either way
   double min_rotation_rad = 0, max_rotation_rad = 0.0873;     // yaw about the middle of the wall's longest room surface, either way
   std::string sensor = "vlp16";                               // see sensor.h
@@ -70,6 +73,15 @@ struct UnplannedWall {
   uint64_t points = 0;                   // returns from it
 };
 
+// A doorway of the storey, in a straight wall. The shift is along the built wall, + to the left of who passes from room_a to room_b, from
+// where the doorway would be had its wall moved along its own normal and turned about the middle of its longest surface, taken on the line
+// through its doorways.
+struct BuiltDoorway {
+  DoorwayId doorway;
+  double shift_m = 0, width_deviation_m = 0;
+  uint64_t rays_through = 0;  // of every eighth ray those that went through it as built
+};
+
 struct SimulateSummary {
   StoreyId storey;
   size_t scans = 0, points = 0;
@@ -82,6 +94,8 @@ struct SimulateSummary {
   std::vector<WallDisplacement> walls;
   std::vector<MissingWall> missing;
   std::vector<UnplannedWall> unplanned;
+  std::vector<BuiltDoorway> doorways;         // all that are in straight walls of the storey
+  size_t doorways_changed = 0;
   int boxes = 0;                              // clutter that found a place
 };
 

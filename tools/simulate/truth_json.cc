@@ -40,12 +40,25 @@ Json ToJson(const UnplannedWall& w) {
   return {{"polygon", polygon}, {"height_m", Rounded(w.height_m)}, {"points", w.points}};
 }
 
+Json ToJson(const AGraph& plan, const BuiltDoorway& d) {
+  const Doorway& doorway = plan.doorways[d.doorway.index()];
+  return {{"id", d.doorway.value},
+          {"guid", doorway.guid},
+          {"name", doorway.name},
+          {"shift_m", Rounded(d.shift_m)},
+          {"width_deviation_m", Rounded(d.width_deviation_m)},
+          {"rays_through", d.rays_through}};
+}
+
 Json ToJson(const SimulateOptions& o) {
   return {{"seed", o.seed},
           {"deviate", o.deviate},
           {"deviate_ratio", o.deviate_ratio},
           {"missing", o.missing},
           {"unplanned", o.unplanned},
+          {"doorways", o.doorways},
+          {"doorways_ratio", o.doorways_ratio},
+          {"doorway_m", {o.min_doorway_m, o.max_doorway_m}},
           {"translation_m", {o.min_translation_m, o.max_translation_m}},
           {"rotation_deg", {Degrees(o.min_rotation_rad), Degrees(o.max_rotation_rad)}},
           {"sensor", o.sensor},
@@ -82,10 +95,12 @@ std::string TruthToJson(const AGraph& plan, const SimulateOptions& options, cons
                {"walls", Json::array()},
                {"missing", Json::array()},
                {"unplanned", Json::array()},
+               {"doorways", Json::array()},
                {"surface_points", Json::object()}};
   for (const WallDisplacement& w : summary.walls) json["walls"].push_back(ToJson(plan, w));
   for (const MissingWall& m : summary.missing) json["missing"].push_back(ToJson(plan, m));
   for (const UnplannedWall& w : summary.unplanned) json["unplanned"].push_back(ToJson(w));
+  for (const BuiltDoorway& d : summary.doorways) json["doorways"].push_back(ToJson(plan, d));
   for (size_t i = 0; i < summary.surface_points.size(); ++i) json["surface_points"][std::to_string(i)] = summary.surface_points[i];
   json["drive"] = {{"duration_s", Rounded(summary.duration_s)},
                    {"path_m", Rounded(summary.path_m)},

@@ -108,12 +108,12 @@ TEST(UpdateToJson, TellsOfEachSurfaceOnceUntilItChanges) {
   for (size_t i = 0; i < 2; ++i) update.deviations.surfaces[i].surface = SurfaceId(i);
   update.deviations.surfaces[1].status = SurfaceStatus::kDeviated;
   update.deviations.surfaces[1].translation_m = 0.2;
-  std::vector<SurfaceDeviation> told;
+  ToldDeviations told;
   const std::string first = UpdateToJson(update, told);
   EXPECT_EQ(first,
             "{\"t\":12.5,\"verdict\":\"localized\",\"T_plan_map\":[1.0,2.0,0.5,0.0],\"surfaces\":[{\"id\":1,\"status\":\"deviated\","
             "\"translation_m\":0.2,"
-            "\"sigma_translation_m\":0.0,\"rotation_deg\":0.0,\"sigma_rotation_deg\":0.0,\"p_deviated\":0.0}]}\n");
+            "\"sigma_translation_m\":0.0,\"rotation_deg\":0.0,\"sigma_rotation_deg\":0.0,\"p_deviated\":0.0}],\"doorways\":[]}\n");
   EXPECT_NE(UpdateToJson(update, told).find("\"surfaces\":[]"), std::string::npos);
   EstimateUpdate lost = update;
   lost.T_plan_map.reset();
@@ -122,6 +122,16 @@ TEST(UpdateToJson, TellsOfEachSurfaceOnceUntilItChanges) {
     update.deviations.surfaces[1].translation_m += 0.0004;
     EXPECT_EQ(UpdateToJson(update, told).find("\"surfaces\":[]") == std::string::npos, i == 2);
   }
+}
+
+TEST(UpdateToJson, TellsOfEachDoorwayOnceUntilItChanges) {
+  EstimateUpdate update;
+  update.deviations.doorways = {{.doorway = DoorwayId(0), .status = DoorwayStatus::kDeviated, .shift_m = 0.1}, {.doorway = DoorwayId(1)}};
+  ToldDeviations told;
+  EXPECT_NE(UpdateToJson(update, told).find("\"doorways\":[{\"id\":0,\"status\":\"deviated\",\"shift_m\":0.1,"), std::string::npos);
+  EXPECT_NE(UpdateToJson(update, told).find("\"doorways\":[]"), std::string::npos);
+  update.deviations.doorways[1].status = DoorwayStatus::kMissing;
+  EXPECT_NE(UpdateToJson(update, told).find("\"doorways\":[{\"id\":1,\"status\":\"missing\",\"shift_m\":null,"), std::string::npos);
 }
 
 TEST(OnlineLocalizer, EndsAtOnceWhenNobodyWantsTheResults) {

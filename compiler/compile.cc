@@ -211,6 +211,7 @@ std::optional<AGraph> Run(std::optional<PlanIr> plan, const CompileOptions& opti
   EmitMesh(*plan, graph);
   MoveToPlanFrame(*plan, graph);
   ForecastAliases({}, graph);
+  ReturnFreedMemory();  // of its sections
   AddLocated(*plan, ValidateGraph(graph), sink);
   std::vector<Option> recorded = Recorded(options);
   if (plan->source_format == "DXF" || plan->source_format == "SVG")

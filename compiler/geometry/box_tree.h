@@ -9,21 +9,14 @@
 
 namespace plumb::compiler {
 
-// Built by splitting at the median of the longest extent: O(n log n). Deterministic.
+// Built by splitting at the median of the longest extent: O(n log n). Deterministic; large ones are built on several threads.
 template <int kDimension>
 class BoxTree {
  public:
   using Box = Eigen::AlignedBox<double, kDimension>;
 
   BoxTree() = default;
-  explicit BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)), order_(boxes_.size()) {
-    size_t leaves = 1;
-    while (leaves * kLeaf < order_.size()) leaves *= 2;
-    nodes_.resize(2 * leaves);
-    std::vector<Place> places(order_.size());
-    for (uint32_t i = 0; i < places.size(); ++i) places[i].index = i;
-    if (!order_.empty()) Build(1, 0, order_.size(), places);
-  }
+  explicit BoxTree(std::vector<Box> boxes) : boxes_(std::move(boxes)) { Build(); }
 
   [[nodiscard]] size_t size() const { return boxes_.size(); }
 
@@ -45,32 +38,7 @@ class BoxTree {
  private:
   static constexpr size_t kLeaf = 8;
 
-  struct Place {
-    double at;
-    uint32_t index;
-  };
-
-  // Node n holds order_[first, last); its halves are nodes 2n and 2n + 1.
-  void Build(size_t node, size_t first, size_t last, std::vector<Place>& places) {
-    Box& bounds = nodes_[node];
-    for (size_t i = first; i < last; ++i) bounds.extend(boxes_[places[i].index]);
-    if (IsLeaf(node)) {
-      for (size_t i = first; i < last; ++i) order_[i] = places[i].index;
-      return;
-    }
-    Eigen::Index axis = 0;
-    if (!bounds.isEmpty()) bounds.sizes().maxCoeff(&axis);
-    const size_t middle = (first + last) / 2;
-    for (size_t i = first; i < last; ++i) {
-      const Box& box = boxes_[places[i].index];
-      places[i].at = box.min()[axis] + box.max()[axis];
-    }
-    const auto position = [&places](size_t i) { return places.begin() + static_cast<std::ptrdiff_t>(i); };
-    std::nth_element(position(first), position(middle), position(last),
-                     [](const Place& a, const Place& b) { return a.at != b.at ? a.at < b.at : a.index < b.index; });
-    Build(2 * node, first, middle, places);
-    Build(2 * node + 1, middle, last, places);
-  }
+  void Build();
 
   [[nodiscard]] bool IsLeaf(size_t node) const { return 2 * node >= nodes_.size(); }
 
@@ -88,7 +56,10 @@ class BoxTree {
 
   std::vector<Box> boxes_;
   std::vector<uint32_t> order_;
-  std::vector<Box> nodes_;  // from 1 on
+  std::vector<Box> nodes_;  // from 1 on; node n holds a part of order_, its halves are nodes 2n and 2n + 1
 };
+
+extern template class BoxTree<2>;
+extern template class BoxTree<3>;
 
 }  // namespace plumb::compiler

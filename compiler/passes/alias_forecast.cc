@@ -8,6 +8,7 @@
 #include <map>
 #include <tuple>
 
+#include "compiler/passes/for_each_job.h"
 #include "compiler/passes/polygon.h"
 #include "compiler/passes/twin_classes.h"
 
@@ -32,6 +33,7 @@ class Forecast {
     classes_ = FindTwinClasses(shapes_, sections_, graph_.rooms.size(), options_.min_overlap_ratio);
     for (const TwinClass& c : classes_) {
       if (c.rooms.size() > 1) graph_.look_alikes.push_back({c.rooms});
+      for (const RoomId room : c.rooms) members_.emplace_back(room, static_cast<size_t>(&c - classes_.data()));
     }
     for (const Candidate& c : Candidates()) {
       if (graph_.aliases.size() == options_.max_aliases || alias_rooms_ >= options_.max_alias_rooms) break;
@@ -123,18 +125,19 @@ class Forecast {
 
   // All rooms that `motion` takes onto another of their class.
   std::vector<RoomPair> RoomsTaken(const PlanarMotion& motion) const {
-    std::vector<RoomPair> pairs;
     const double reach_m = 2 * options_.twins.tolerance_m;
-    for (const TwinClass& c : classes_) {
-      for (RoomId room : c.rooms) {
-        const double x_m = motion.Apply(shapes_.Center(room)).x();
-        auto it =
-            std::lower_bound(c.by_x.begin(), c.by_x.end(), x_m - reach_m, [&](RoomId r, double x) { return shapes_.Center(r).x() < x; });
-        for (; it != c.by_x.end() && shapes_.Center(*it).x() <= x_m + reach_m; ++it) {
-          if (shapes_.TakesOnto(room, motion, *it)) pairs.push_back({room, *it});
-        }
+    std::vector<std::vector<RoomPair>> taken(members_.size());
+    ForEachJob(members_.size(), options_.sections.min_parallel, [&](size_t m) {
+      const auto& [room, in_class] = members_[m];
+      const std::vector<RoomId>& by_x = classes_[in_class].by_x;
+      const double x_m = motion.Apply(shapes_.Center(room)).x();
+      auto it = std::lower_bound(by_x.begin(), by_x.end(), x_m - reach_m, [&](RoomId r, double x) { return shapes_.Center(r).x() < x; });
+      for (; it != by_x.end() && shapes_.Center(*it).x() <= x_m + reach_m; ++it) {
+        if (shapes_.TakesOnto(room, motion, *it)) taken[m].push_back({room, *it});
       }
-    }
+    });
+    std::vector<RoomPair> pairs;
+    for (const auto& of_room : taken) pairs.insert(pairs.end(), of_room.begin(), of_room.end());
     return pairs;
   }
 
@@ -175,15 +178,18 @@ class Forecast {
     if (IsKnown(motion)) return;
     known_.push_back(motion);
     known_.push_back(motion.Inverse());
-    std::vector<RoomPair> pairs = RoomsTaken(motion);
+    const std::vector<RoomPair> pairs = RoomsTaken(motion);
+    std::vector<SectionComparison> found(pairs.size());
+    ForEachJob(pairs.size(), options_.sections.min_parallel,
+               [&](size_t i) { found[i] = sections_.Compare(pairs[i].from, motion, pairs[i].to); });
     Comparisons compared;
-    std::erase_if(pairs, [&](const RoomPair& p) {
-      SectionComparison c = sections_.Compare(p.from, motion, p.to);
-      const bool coincide = c.overlap_ratio() >= options_.min_overlap_ratio;
-      if (coincide) compared[p.from] = std::move(c);
-      return !coincide;
-    });
-    const std::vector<Part> parts = PartsThatStay(std::move(pairs));
+    std::vector<RoomPair> coinciding;
+    for (size_t i = 0; i < pairs.size(); ++i) {
+      if (found[i].overlap_ratio() < options_.min_overlap_ratio) continue;
+      coinciding.push_back(pairs[i]);
+      compared[pairs[i].from] = std::move(found[i]);
+    }
+    const std::vector<Part> parts = PartsThatStay(std::move(coinciding));
     if (parts.empty()) return;
     graph_.aliases.push_back(AliasOf(motion, parts, compared));
     alias_rooms_ += graph_.aliases.back().rooms.size();
@@ -253,6 +259,7 @@ class Forecast {
   RoomSections sections_;
   Eigen::AlignedBox3d box_;
   std::vector<TwinClass> classes_;
+  std::vector<std::pair<RoomId, size_t>> members_;  // of the classes, each with its class
   size_t alias_rooms_ = 0;
   std::vector<PlanarMotion> known_ = {PlanarMotion()};
 };

@@ -1,7 +1,6 @@
 #include "compiler/passes/room_sections.h"
 
 #include <fmt/format.h>
-#include <tbb/parallel_for.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include <numeric>
 #include <optional>
 
+#include "compiler/passes/for_each_job.h"
 #include "compiler/passes/polygon.h"
 
 namespace plumb::compiler {
@@ -221,7 +221,7 @@ std::vector<RoomSections::Found> RoomSections::Find(const AGraph& graph, const s
   const std::vector<Plane> planes = PlanesOf(levels, options_.heights_m);
   const auto parts = PartsOf(graph.mesh.triangles);
   std::vector<Found> out(parts.size());
-  tbb::parallel_for(size_t{0}, parts.size(), [&](size_t i) { out[i] = Cutter(graph, levels, planes, options_).Run(parts[i]); });
+  ForEachJob(parts.size(), options_.min_parallel, [&](size_t i) { out[i] = Cutter(graph, levels, planes, options_).Run(parts[i]); });
   return out;
 }
 
@@ -245,7 +245,7 @@ RoomSections::RoomSections(const AGraph& graph, const std::vector<bool>& wanted,
     cuts_.insert(cuts_.end(), part.cuts.begin(), part.cuts.end());
     part = {};
   }
-  tbb::parallel_for(size_t{0}, grids_.size(), [this](size_t r) { BuildGrid(r); });
+  ForEachJob(grids_.size(), options_.min_parallel, [this](size_t r) { BuildGrid(r); });
 }
 
 void RoomSections::BuildGrid(size_t room) {

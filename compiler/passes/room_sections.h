@@ -18,6 +18,7 @@ struct SectionOptions {
   double tolerance_m = 0.06;                   // off a section that still coincides with it
   double max_turn_rad = 0.35;                  // between the normals of sections that coincide
   size_t max_compared = 1 << 17;               // points of all rooms; of more, each room has only some compared, but 16
+  size_t min_parallel = 256;                   // jobs (512 triangles, or a room) that are worth threads
   [[nodiscard]] std::string Check() const;
 };
 

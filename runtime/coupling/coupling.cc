@@ -295,6 +295,7 @@ std::string CouplingOptions::Check() const {
   const std::pair<const char*, double> positive[] = {{"max_offset_m", max_offset_m},   {"planar_max_offset_m", planar_max_offset_m},
                                                      {"max_yaw_rad", max_yaw_rad},     {"far_offset_m", far_offset_m},
                                                      {"far_yaw_rad", far_yaw_rad},     {"max_level_offset_m", max_level_offset_m},
+                                                     {"max_unknown_height_m", max_unknown_height_m},
                                                      {"max_step_m", max_step_m},       {"offset_tau0_m", offset_tau0_m},
                                                      {"offset_tau1_m", offset_tau1_m}, {"yaw_tau0_rad", yaw_tau0_rad},
                                                      {"yaw_tau1_rad", yaw_tau1_rad}};

@@ -22,6 +22,7 @@ struct DeviationOptions {
   double min_offset_m = 0.02;           // smaller deviations are as planned, however certain
   double min_yaw_rad = 0.0087;
   double min_observed_m2 = 0.5;         // less, over all faces of a wall, was not seen well enough to judge
+  double turned_rad = 0.0873, min_turned_m2 = 1.0;  // ... nor was a wall turned so far: boxes have faces of that size at any angle
   double min_p_deviated = 0.95;
   double max_mdb_m = 0.2;               // a wall of which only larger deviations would have been found was not tested; ...
   double max_undecided_m = 0.1;         // ... nor one that may be so far off by what was seen (95 %), whatever is likely beforehand
@@ -72,9 +73,9 @@ struct WallChanges {
 // wall's status; ends of walls and curved surfaces stay unobserved. A wall deviates if Benjamini-Hochberg rejects "as planned" on the
 // chi-square (2 dof) of its evidence of (offset, yaw) plus tolerance, and it exceeds a minimum magnitude, and p_deviated is high. Where
 // neither it nor a deviation of max_mdb_m could have been told, or what was seen leaves one of max_undecided_m possible, the wall is
-// unobserved, however much of it was seen. So is a wall off its face whose shape is as planned: what was seen there is in the plan, but is
-// not this face. The faces of a wall that `changes` calls missing are missing, whatever the estimate. The gauge says how many walls deviate
-// and are missing.
+// unobserved, however much of it was seen. So is a wall that was hardly seen and seems to have turned as boxes do, and a wall off its face
+// whose shape is as planned: what was seen there is in the plan, but is not this face. The faces of a wall that `changes` calls missing are
+// missing, whatever the estimate. The gauge says how many walls deviate and are missing.
 [[nodiscard]] DeviationReport AssessDeviations(const AGraph& plan, const JointResult& estimate, const DeviationOptions& options = {},
                                                const WallChanges& changes = {});
 

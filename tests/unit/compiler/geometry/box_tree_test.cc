@@ -1,6 +1,7 @@
 #include "compiler/geometry/box_tree.h"
 
 #include <gtest/gtest.h>
+#include <tbb/global_control.h>
 
 #include <set>
 
@@ -41,6 +42,19 @@ TEST(BoxTree, LooksAtFewBoxes) {
       },
       [&](uint32_t) { ++looked_at; });
   EXPECT_LT(looked_at, 150u);  // of 40000
+}
+
+TEST(BoxTree, IsTheSameOnAnyNumberOfThreads) {
+  const std::vector<Eigen::AlignedBox2d> boxes = Squares(300);
+  const auto visited = [&boxes](size_t threads) {
+    const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
+    std::vector<uint32_t> out;
+    BoxTree<2>(boxes).ForEach([](const Eigen::AlignedBox2d&) { return true; }, [&](uint32_t i) { out.push_back(i); });
+    return out;
+  };
+  const std::vector<uint32_t> alone = visited(1);
+  EXPECT_EQ(std::set<uint32_t>(alone.begin(), alone.end()).size(), boxes.size());
+  for (const size_t threads : {2, 3, 8}) EXPECT_EQ(visited(threads), alone) << threads;
 }
 
 TEST(BoxTree, OfBoxesInOnePlaceFindsAll) {

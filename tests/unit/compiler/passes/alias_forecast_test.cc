@@ -123,10 +123,13 @@ TEST(AliasForecast, IsTheSameOnAnyNumberOfThreads) {
   ASSERT_GT(plan.mesh.triangles.size(), 4u * 512u) << "all of them are cut in one go";
   const auto forecast = [&plan](size_t threads) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
-    return WriteAGraph(Forecasted(plan));
+    AliasOptions options;
+    options.sections.min_parallel = 1;
+    return WriteAGraph(Forecasted(plan, options));
   };
   const auto alone = forecast(1);
   for (const size_t threads : {2, 3, 8}) EXPECT_EQ(forecast(threads), alone) << threads;
+  EXPECT_EQ(WriteAGraph(Forecasted(plan)), alone) << "jobs too few for threads";
 }
 
 TEST(AliasForecast, AMirrorImageIsNoAlias) {

@@ -5,8 +5,9 @@
 #include <algorithm>
 #include <numbers>
 
-#include "schema/polygon.h"
+#include "runtime/coupling/level_matching.h"
 #include "runtime/coupling/wall_frame.h"
+#include "schema/polygon.h"
 #include "tests/support/house.h"
 #include "tests/support/synthetic_sgraph.h"
 
@@ -374,6 +375,34 @@ TEST(MatchLevels, FloorGoesToTheRoomItLiesIn) {
   ASSERT_EQ(matches.size(), 1u);
   EXPECT_EQ(matches[0].room, RoomId(2));
   EXPECT_NEAR(matches[0].offset_m, 0.02, 1e-9);
+}
+
+TEST(MatchLevels, TheBestSeenFloorIsWhereTheRobotStandsWhileTheHeightIsAGuess) {
+  const AGraph house = test::MakeHouse();
+  Scene scene;
+  const auto add = [&scene](double z_m, SurfaceKind kind, std::initializer_list<Eigen::Vector2d> places) {
+    MapSurface level;
+    level.kind = kind;
+    level.plane.n = (kind == SurfaceKind::kFloor ? 1 : -1) * Eigen::Vector3d::UnitZ();
+    level.observations.emplace_back();
+    for (const Eigen::Vector2d& p : places) level.observations[0].stats.Add({p.x(), p.y(), z_m});
+    scene.map.surfaces.push_back(level);
+  };
+  const double ceiling_m = house.rooms[2].ceiling_z_m;
+  add(0.4, SurfaceKind::kFloor, {{6, 1}, {7, 2}, {6.5, 3}});
+  add(1.1, SurfaceKind::kFloor, {{6, 1}, {6.2, 1.2}});  // a table
+  add(ceiling_m + 0.41, SurfaceKind::kCeiling, {{6, 1}, {7, 2}, {6.5, 3}});
+  const auto matches = MatchLevels(scene.map, house, Eigen::Isometry3d::Identity(), {});
+  ASSERT_EQ(matches.size(), 2u);
+  EXPECT_EQ(matches[0].map_surface, 0u);
+  EXPECT_NEAR(matches[0].offset_m, 0.4, 1e-9);
+  EXPECT_EQ(matches[1].map_surface, 2u);
+  EXPECT_NEAR(matches[1].offset_m, 0.41, 1e-9);
+
+  add(0.02, SurfaceKind::kFloor, {{6, 1}, {7, 2}});  // one floor where planned: the height is known, the others stand on it
+  const auto known = MatchLevels(scene.map, house, Eigen::Isometry3d::Identity(), {});
+  ASSERT_EQ(known.size(), 1u);
+  EXPECT_EQ(known[0].map_surface, 3u);
 }
 
 TEST(CouplingOptions, CheckNamesFieldValueAndRule) {

@@ -115,6 +115,18 @@ TEST(AssessDeviations, HardlySeenWallsAreUnobserved) {
   EXPECT_EQ(AssessDeviations(house, estimate).surfaces[9].status, SurfaceStatus::kAsPlanned);
 }
 
+TEST(AssessDeviations, ASmallFaceAtAnAngleIsABoxAndNoWall) {
+  const AGraph house = test::MakeHouse();
+  const auto status = [&house](double yaw_rad, double observed_m2) {
+    const JointResult estimate = EstimateOfEastWall(house, {0.03, yaw_rad}, Eigen::Matrix2d::Identity() * 1e-6, observed_m2);
+    return AssessDeviations(house, estimate).surfaces[9].status;
+  };
+  EXPECT_EQ(status(0.2, 0.7), SurfaceStatus::kUnobserved);
+  EXPECT_EQ(status(-0.2, 0.7), SurfaceStatus::kUnobserved);
+  EXPECT_EQ(status(0.05, 0.7), SurfaceStatus::kDeviated);
+  EXPECT_EQ(status(0.2, 1.2), SurfaceStatus::kDeviated);
+}
+
 TEST(AssessDeviations, WhatCouldNotHaveBeenFoundIsUnobservedAndNotAsPlanned) {
   const AGraph house = test::MakeHouse();
   JointResult estimate = EstimateOfEastWall(house, {}, Eigen::Vector2d(0.01 * 0.01, 1e-6).asDiagonal(), 30);

@@ -9,15 +9,15 @@ namespace plumb::runtime {
 namespace {
 
 constexpr double kRandom = 0.08;
-constexpr double kFurnished = 0.24;        // of the other rays end on something in front of the building, at least, ...
-constexpr double kMostFurnished = 0.6;     // ... and at most: a pose that explains fewer rays than that explains nothing
-constexpr double kAsPlanned = 0.75;        // of the hits; the others are on walls that deviate
-constexpr double kThrough = 0.018;         // likelihood ratio of passing through a solid wall: -4 nats
-constexpr double kThroughDepth_m = 0.6;    // beyond any deviation
+constexpr double kFurnished = 0.24;      // of the other rays end on something in front of the building, at least, ...
+constexpr double kMostFurnished = 0.6;   // ... and at most: a pose that explains fewer rays than that explains nothing
+constexpr double kAsPlanned = 0.75;      // of the hits; the others are on walls that deviate
+constexpr double kThrough = 0.018;       // likelihood ratio of passing through a solid wall: -4 nats
+constexpr double kThroughDepth_m = 0.6;  // beyond any deviation
 constexpr double kOpeningMargin_m = 0.3;
 constexpr double kMinIncidence = 0.25;
 constexpr double kNormalsAgree = 2.5, kNormalsDiffer = 0.1;
-constexpr double kSameNormal = 0.94;       // cosine of 20 degrees
+constexpr double kSameNormal = 0.94;  // cosine of 20 degrees
 // What a wrong plan still gains per judged ray at the pose that suits it best. It is the price of "in the plan".
 constexpr double kForeignGain = 0.5;
 
@@ -28,8 +28,8 @@ double Gaussian(double x, double sigma) {
 
 // The likelihood ratio of one ray, up to the share of rays that end on something in front of the building.
 struct RayJudgement {
-  double hit = 0, short_of = 0;  // its densities over the background's as a hit and as something in front; ...
-  double other = 0;              // ... of neither
+  double hit = 0, short_of = 0;           // its densities over the background's as a hit and as something in front; ...
+  double other = 0;                       // ... of neither
   bool judged = false, only_for = false;  // only_for: speaks for the pose or not at all
   bool explained = false, through = false, in_front = false;
 

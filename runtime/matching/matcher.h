@@ -44,8 +44,8 @@ struct MatcherOptions {
   double accept_scale_bias = 0.005;  // what a lidar's ranges may be off by is no other scale
   // Rays vouch for a place that far fewer walls would not: in furnished or much deviating buildings. They do where this share of them ends
   // on what the plan has there, and the place leads every rival, the plan's mirror image and "outside" by this many nats, and by this much
-  // of its own log-likelihood unless nearly all rays end where they should. Furniture in the way of a planar laser, where half of the rays
-  // of an office end, says nothing: of these maps' rays only those count that nothing stops in front.
+  // of its own log-likelihood unless nearly all rays end where they should. Furniture in the way, where half of the rays of an office may
+  // end, says nothing: only those rays count that nothing stops in front.
   double vouch_explained_ratio = 0.65;
   double vouch_lead_nats = 30;
   double vouch_lead_ratio = 0.3;

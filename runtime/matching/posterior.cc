@@ -83,9 +83,9 @@ int RequiredPlanes(size_t num_rooms, double log_prior, const MatcherOptions& opt
   return options.accept_min_planes + static_cast<int>(std::lround(std::log10(std::max(1.0, like_this))));
 }
 
-bool RaysVouch(const std::vector<Candidate>& sorted, double mirrored, bool planar, const MatcherOptions& options) {
+bool RaysVouch(const std::vector<Candidate>& sorted, double mirrored, const MatcherOptions& options) {
   const RayEvidence& best = sorted.front().rays;
-  const double counted_ratio = planar ? 1 - best.in_front_ratio : 1;
+  const double counted_ratio = 1 - best.in_front_ratio;
   double rival = std::max(0.0, mirrored);
   for (size_t i = 1; i < sorted.size(); ++i) rival = std::max(rival, sorted[i].rays.log_likelihood);
   const double lead = best.log_likelihood - rival;
@@ -144,7 +144,7 @@ MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, con
   }
   const size_t n = std::min(sorted.size(), static_cast<size_t>(options.keep_hypotheses));
   for (size_t i = 0; i < n; ++i) result.hypotheses.push_back(ToHypothesis(sorted[i], map, plan.origin));
-  const RayVerdict by_rays{RaysVouch(sorted, wrong.mirrored, map.planar, options), StandsAlone(sorted, wrong.mirrored, options)};
+  const RayVerdict by_rays{RaysVouch(sorted, wrong.mirrored, options), StandsAlone(sorted, wrong.mirrored, options)};
   if (by_rays.vouch) SetSigmas(sorted.front().fit.place_information, result.hypotheses.front());
   SetProbabilities(result, std::max(0.0, wrong.mirrored));
   const Hypothesis& best = result.hypotheses.front();

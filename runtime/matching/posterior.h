@@ -40,8 +40,8 @@ struct WrongPlans {
 // them.
 [[nodiscard]] int RequiredPlanes(size_t num_rooms, double log_prior, const MatcherOptions& options);
 
-// Whether the rays alone tell the place (see MatcherOptions) of a map, by a planar laser or another. `sorted` must not be empty.
-[[nodiscard]] bool RaysVouch(const std::vector<Candidate>& sorted, double mirrored, bool planar, const MatcherOptions& options);
+// Whether the rays alone tell the place (see MatcherOptions). `sorted` must not be empty.
+[[nodiscard]] bool RaysVouch(const std::vector<Candidate>& sorted, double mirrored, const MatcherOptions& options);
 
 // Whether the best is the only place at which the rays fit: by vouch_lead_nats better than "outside the plan", while all others, the best
 // in the plan's mirror image among them, are no better than that. Without another there is nothing to tell by. `sorted` must not be empty.

@@ -3,18 +3,21 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 namespace plumb::runtime {
 namespace {
 
-constexpr double kHit = 0.70, kShort = 0.22, kRandom = 0.08;
-constexpr double kAsPlanned = 0.75;        // of the hits; the others are on walls that deviate
-constexpr double kThrough = 0.018;         // likelihood ratio of passing through a solid wall: -4 nats
-constexpr double kThroughDepth_m = 0.6;    // beyond any deviation
+constexpr double kRandom = 0.08;
+constexpr double kFurnished = 0.24;      // of the other rays end on something in front of the building, at least, ...
+constexpr double kMostFurnished = 0.6;   // ... and at most: a pose that explains fewer rays than that explains nothing
+constexpr double kAsPlanned = 0.75;      // of the hits; the others are on walls that deviate
+constexpr double kThrough = 0.018;       // likelihood ratio of passing through a solid wall: -4 nats
+constexpr double kThroughDepth_m = 0.6;  // beyond any deviation
 constexpr double kOpeningMargin_m = 0.3;
 constexpr double kMinIncidence = 0.25;
 constexpr double kNormalsAgree = 2.5, kNormalsDiffer = 0.1;
-constexpr double kSameNormal = 0.94;       // cosine of 20 degrees
+constexpr double kSameNormal = 0.94;  // cosine of 20 degrees
 // What a wrong plan still gains per judged ray at the pose that suits it best. It is the price of "in the plan".
 constexpr double kForeignGain = 0.5;
 
@@ -23,9 +26,17 @@ double Gaussian(double x, double sigma) {
   return std::exp(-0.5 * t * t) / (sigma * std::sqrt(2 * std::numbers::pi));
 }
 
+// The likelihood ratio of one ray, up to the share of rays that end on something in front of the building.
 struct RayJudgement {
-  double log_ratio = 0;
-  bool judged = false, explained = false, through = false, in_front = false;
+  double hit = 0, short_of = 0;           // its densities over the background's as a hit and as something in front; ...
+  double other = 0;                       // ... of neither
+  bool judged = false, only_for = false;  // only_for: speaks for the pose or not at all
+  bool explained = false, through = false, in_front = false;
+
+  [[nodiscard]] double LogRatio(double furnished) const {
+    const double ratio = (1 - kRandom) * ((1 - furnished) * hit + furnished * short_of) + other;
+    return only_for ? std::max(0.0, std::log(ratio)) : judged ? std::log(ratio) : 0;
+  }
 };
 
 class Judge {
@@ -41,34 +52,34 @@ class Judge {
     if (!hit.first.hit()) return {};
     RayJudgement result;
     const double background = map_.background.Density(ray.range_m);
-    double hit_density = HitDensity(ray, direction, hit.first);
+    result.hit = HitDensity(ray, direction, hit.first) / background;
     double furthest_m = hit.first.range_m;
     if (hit.soft) {
-      hit_density *= 0.5;
+      result.hit *= 0.5;
       if (!hit.solid.hit()) {
         // Beyond the soft thing is the open: no evidence against, only for.
-        result.log_ratio = std::max(0.0, std::log(kHit * hit_density / background + 0.5));
+        result.other = 0.5;
+        result.only_for = true;
         return result;
       }
-      hit_density += 0.5 * HitDensity(ray, direction, hit.solid);
+      result.hit += 0.5 * HitDensity(ray, direction, hit.solid) / background;
       furthest_m = hit.solid.range_m;
     }
     const double incidence = std::max(std::abs(hit.solid.normal.cast<double>().dot(direction)), kMinIncidence);
     const double beyond_m = (ray.range_m - furthest_m) * incidence;
-    double ratio = kHit * hit_density / background;
-    result.explained = ratio > 1;
+    result.explained = (1 - kRandom) * (1 - kFurnished) * result.hit > 1;
     if (ray.range_m < furthest_m) {
-      ratio += kShort / map_.background.Below(furthest_m) + kRandom;
+      result.short_of = 1 / map_.background.Below(furthest_m);
+      result.other = kRandom;
       result.in_front = !result.explained;
     } else if (beyond_m > 3 * model_.deviation_sigma_m && !result.explained) {
       if (plan_.NearOpening(origin + furthest_m * direction, kOpeningMargin_m)) return {};
-      ratio += kThrough;
+      result.other = kThrough;
       result.through = beyond_m > kThroughDepth_m && std::abs(hit.solid.normal.z()) < 0.5f;
     } else {
-      ratio += kRandom;
+      result.other = kRandom;
     }
     result.judged = true;
-    result.log_ratio = std::log(ratio);
     return result;
   }
 
@@ -104,23 +115,26 @@ double RayModel::HitDensity(double range_m, double expected_m, double incidence,
 RayEvidence JudgeRays(const PlanIndex& plan, const MapView& map, const PlanarPose& pose, const MatcherOptions& options, size_t stride) {
   const Judge judge(plan, map, pose, options);
   RayEvidence evidence;
-  double sum = 0;
-  size_t used = 0;
+  std::vector<RayJudgement> judgements;
+  judgements.reserve(map.rays.size() / stride + 1);
   int explained = 0, through = 0, in_front = 0;
   for (size_t i = 0; i < map.rays.size(); i += stride) {
-    const RayJudgement j = judge(map.rays[i]);
-    ++used;
-    sum += j.log_ratio;
+    const RayJudgement& j = judgements.emplace_back(judge(map.rays[i]));
     evidence.judged += j.judged;
     explained += j.explained;
     through += j.through;
     in_front += j.in_front;
   }
+  const size_t used = judgements.size();
   if (used == 0) return evidence;
+  // How much furniture there is nobody knows beforehand: as much as suits the pose.
+  const double furnished = std::clamp(static_cast<double>(in_front) / std::max(evidence.judged, 1), kFurnished, kMostFurnished);
+  double sum = 0;
+  for (const RayJudgement& j : judgements) sum += j.LogRatio(furnished);
   const double scale = static_cast<double>(map.rays.size()) / static_cast<double>(used);
   // Charged for every ray, judged or not: a pose from which nothing of the plan is seen explains nothing. But what furniture stops says as
-  // little of a wrong plan as of the right one, and among furniture that is every other ray of a planar laser.
-  const double charged = static_cast<double>(used) - (map.planar ? in_front : 0);
+  // little of a wrong plan as of the right one.
+  const double charged = static_cast<double>(used) - in_front;
   evidence.log_likelihood = scale * (sum - kForeignGain * charged) / options.rays_per_independent;
   if (evidence.judged > 0) {
     evidence.explained_ratio = static_cast<double>(explained) / evidence.judged;

@@ -127,28 +127,27 @@ TEST(WallsTellScale, OnlyWhereTheyAgreeWithThePlansToo) {
 
 TEST(RaysVouch, OnlyFarAheadOfTheRivalAndTheMirrorImage) {
   const MatcherOptions options;
-  EXPECT_TRUE(RaysVouch({Good(100), Good(20, 5)}, 0, false, options));
-  EXPECT_FALSE(RaysVouch({Good(100), Good(80, 5)}, 0, false, options)) << "a rival is near";
-  EXPECT_FALSE(RaysVouch({Good(100), Good(20, 5)}, 80, false, options)) << "the mirror image is near";
-  EXPECT_FALSE(RaysVouch({Good(300), Good(300 - 0.9 * options.vouch_lead_ratio * 300, 5)}, 0, false, options))
+  EXPECT_TRUE(RaysVouch({Good(100), Good(20, 5)}, 0, options));
+  EXPECT_FALSE(RaysVouch({Good(100), Good(80, 5)}, 0, options)) << "a rival is near";
+  EXPECT_FALSE(RaysVouch({Good(100), Good(20, 5)}, 80, options)) << "the mirror image is near";
+  EXPECT_FALSE(RaysVouch({Good(300), Good(300 - 0.9 * options.vouch_lead_ratio * 300, 5)}, 0, options))
       << "a small part of what both explain";
   Candidate nearly_all = Good(300);
   nearly_all.rays.explained_ratio = options.vouch_nearly_all_ratio;
-  EXPECT_TRUE(RaysVouch({nearly_all, Good(300 - options.vouch_lead_nats, 5)}, 0, false, options));
+  EXPECT_TRUE(RaysVouch({nearly_all, Good(300 - options.vouch_lead_nats, 5)}, 0, options));
   Candidate blind = Good(100);
   blind.rays.explained_ratio = 0.5;
-  EXPECT_FALSE(RaysVouch({blind}, 0, false, options)) << "too few rays end where they should";
+  EXPECT_FALSE(RaysVouch({blind}, 0, options)) << "too few rays end where they should";
 }
 
-TEST(RaysVouch, FurnitureBeforeAPlanarLaserCountsNeitherWay) {
+TEST(RaysVouch, FurnitureCountsNeitherWay) {
   const MatcherOptions options;
   Candidate furnished = Good(100);
   furnished.rays.explained_ratio = 0.45;
   furnished.rays.in_front_ratio = 0.4;
-  EXPECT_FALSE(RaysVouch({furnished}, 0, false, options));
-  EXPECT_TRUE(RaysVouch({furnished}, 0, true, options));
+  EXPECT_TRUE(RaysVouch({furnished}, 0, options));
   furnished.rays.in_front_ratio = 0.2;
-  EXPECT_FALSE(RaysVouch({furnished}, 0, true, options)) << "many of the others end where the plan has nothing";
+  EXPECT_FALSE(RaysVouch({furnished}, 0, options)) << "many of the others end where the plan has nothing";
 }
 
 TEST(Doubt, FewPlanesAreEnoughOnlyWhereRaysVouch) {
@@ -195,7 +194,7 @@ TEST(Decide, AmongClutterAPlaceThatStandsAloneIsUnique) {
   const Candidate cluttered = Cluttered(MatcherOptions());
   const MatchResult alone = Decided({cluttered, Good(-20, 5)});
   EXPECT_EQ(alone.verdict, Verdict::kUnique) << alone.reason;
-  const MatchResult rivalled = Decided({cluttered, Good(20, 5)});
+  const MatchResult rivalled = Decided({cluttered, Good(60 - 0.9 * MatcherOptions().vouch_lead_nats, 5)});
   EXPECT_EQ(rivalled.verdict, Verdict::kSearching);
   EXPECT_NE(rivalled.reason.find("of the walls seen agree"), std::string::npos) << rivalled.reason;
 }

@@ -150,6 +150,17 @@ TEST(RaysVouch, FurnitureCountsNeitherWay) {
   EXPECT_FALSE(RaysVouch({furnished}, 0, options)) << "many of the others end where the plan has nothing";
 }
 
+TEST(RaysVouch, AmongFurnitureOnlyFurtherAhead) {
+  const MatcherOptions options;
+  Candidate c = Good(1.5 * options.vouch_lead_nats);
+  c.rays.in_front_ratio = 0.2;
+  EXPECT_TRUE(RaysVouch({c}, 0, options));
+  c.rays.in_front_ratio = 0.5;
+  EXPECT_FALSE(RaysVouch({c}, 0, options));
+  c.rays.log_likelihood = 2.1 * options.vouch_lead_nats;
+  EXPECT_TRUE(RaysVouch({c}, 0, options));
+}
+
 TEST(Doubt, FewPlanesAreEnoughOnlyWhereRaysVouch) {
   Candidate few = Good(100);
   few.fit.consistent_planes = MatcherOptions().vouch_min_planes;

@@ -12,8 +12,10 @@ std::string OdometryDrift::Check() const {
   for (const auto& [name, value] : {std::pair{"sigma_m", sigma_m}, {"sigma_rad", sigma_rad}}) {
     if (!(value > 0)) return fmt::format("OdometryDrift.{} = {}; must be > 0", name, value);
   }
-  for (const auto& [name, value] : {std::pair{"sigma_m_per_m", sigma_m_per_m}, {"sigma_rad_per_m", sigma_rad_per_m},
-                                    {"sigma_rad_per_rad", sigma_rad_per_rad}, {"sigma_m_per_s", sigma_m_per_s}}) {
+  for (const auto& [name, value] : {std::pair{"sigma_m_per_m", sigma_m_per_m},
+                                    {"sigma_rad_per_m", sigma_rad_per_m},
+                                    {"sigma_rad_per_rad", sigma_rad_per_rad},
+                                    {"sigma_m_per_s", sigma_m_per_s}}) {
     if (!(value >= 0)) return fmt::format("OdometryDrift.{} = {}; must be >= 0", name, value);
   }
   return {};

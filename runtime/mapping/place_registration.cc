@@ -14,8 +14,8 @@ constexpr double kVoxel_m = 0.5;
 constexpr size_t kMapPoints = 6000, kPoints = 3000, kCoarsePoints = 500;  // of each keyframe of the place; of the newer one
 constexpr int kCoarseIterations = 8;
 constexpr double kStartSigmas = 2.0;
-constexpr int kMaxRings = 2, kMaxTurns = 2;     // of starts, either side
-constexpr double kStill = 1e-8;                 // variance of a motion during the sweep: keyframes have none
+constexpr int kMaxRings = 2, kMaxTurns = 2;                     // of starts, either side
+constexpr double kStill = 1e-8;                                 // variance of a motion during the sweep: keyframes have none
 constexpr double kLeastSigma_m = 0.05, kLeastSigma_rad = 0.02;  // however sure the prediction is, the points decide
 
 // Of the older way about the place, apart from each other, in order.

@@ -11,19 +11,19 @@
 namespace plumb::runtime {
 
 struct PlaceRegistrationOptions {
-  double range_sigma_m = 0.02;     // noise of a single return
-  double submap_way_m = 2.5;       // either side of the older keyframe along the robot's way
-  double keyframe_spacing_m = 0.5; // of the keyframes there that are used
+  double range_sigma_m = 0.02;            // noise of a single return
+  double submap_way_m = 2.5;              // either side of the older keyframe along the robot's way
+  double keyframe_spacing_m = 0.5;        // of the keyframes there that are used
   double basin_m = 0.5, basin_rad = 0.3;  // registration finds home from so far off; more starts are tried if it may be farther
   // Three times the registration's own: what leans on 0.3 % of the planes may be clutter.
   double degenerate_ratio = 1e-3;
 };
 
 struct PlaceRegistration {
-  bool ok = false;                    // enough points lie on the place's planes
+  bool ok = false;  // enough points lie on the place's planes
   Eigen::Isometry3d T_place_kf = Eigen::Isometry3d::Identity();
   Matrix6d information = Matrix6d::Zero();  // of its increment (pose_motion.h) by the points alone
-  int num_held = 0;                   // directions that the points hold
+  int num_held = 0;                         // directions that the points hold
   int num_inliers = 0;
   double inlier_ratio = 0, overlap_ratio = 0;  // inliers of the points that meet a surface; those of all
 };

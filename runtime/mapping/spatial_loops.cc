@@ -16,11 +16,11 @@ namespace plumb::runtime {
 namespace {
 
 constexpr std::array<double, 7> kChi2 = {0, 6.63, 9.21, 11.34, 13.28, 15.09, 16.81};  // 99 %, by degrees of freedom
-constexpr int kMinHeld = 5;                   // of six directions: a corridor's; less is a floor and some wall
+constexpr int kMinHeld = 5;                      // of six directions: a corridor's; less is a floor and some wall
 constexpr double kFree_m = 100, kFree_rad = 10;  // along what the points do not hold
 constexpr double kSearchSigmas = 3.0;
 constexpr double kWayBetweenTries_m = 0.25;
-constexpr double kWayToAgree_m = 5.0;         // between the two keyframes of which one confirms the other
+constexpr double kWayToAgree_m = 5.0;                              // between the two keyframes of which one confirms the other
 constexpr double kMergedSigma_m = 0.01, kMergedSigma_rad = 0.002;  // of a keyframe in the one that it was merged into
 
 Matrix6d Diagonal(double sigma_m, double sigma_rad) {
@@ -34,12 +34,20 @@ double HorizontalSigma_m(const Matrix6d& covariance) { return std::sqrt(std::max
 }  // namespace
 
 std::string SpatialLoopOptions::Check() const {
-  const std::pair<const char*, double> positive[] = {{"min_way_m", min_way_m}, {"max_distance_m", max_distance_m},
-      {"max_search_m", max_search_m}, {"min_overlap", min_overlap}, {"min_inlier_share", min_inlier_share},
-      {"floor_sigma_m", floor_sigma_m}, {"floor_sigma_rad", floor_sigma_rad}, {"way_between_m", way_between_m},
-      {"registration.range_sigma_m", registration.range_sigma_m}, {"registration.submap_way_m", registration.submap_way_m},
-      {"registration.keyframe_spacing_m", registration.keyframe_spacing_m}, {"registration.basin_m", registration.basin_m},
-      {"registration.basin_rad", registration.basin_rad}, {"registration.degenerate_ratio", registration.degenerate_ratio}};
+  const std::pair<const char*, double> positive[] = {{"min_way_m", min_way_m},
+                                                     {"max_distance_m", max_distance_m},
+                                                     {"max_search_m", max_search_m},
+                                                     {"min_overlap", min_overlap},
+                                                     {"min_inlier_share", min_inlier_share},
+                                                     {"floor_sigma_m", floor_sigma_m},
+                                                     {"floor_sigma_rad", floor_sigma_rad},
+                                                     {"way_between_m", way_between_m},
+                                                     {"registration.range_sigma_m", registration.range_sigma_m},
+                                                     {"registration.submap_way_m", registration.submap_way_m},
+                                                     {"registration.keyframe_spacing_m", registration.keyframe_spacing_m},
+                                                     {"registration.basin_m", registration.basin_m},
+                                                     {"registration.basin_rad", registration.basin_rad},
+                                                     {"registration.degenerate_ratio", registration.degenerate_ratio}};
   for (const auto& [name, value] : positive) {
     if (!(value > 0)) return fmt::format("SpatialLoopOptions.{} = {}; must be > 0", name, value);
   }
@@ -117,8 +125,7 @@ std::optional<SpatialEdge> SpatialLoops::Find(const SGraph& graph) const {
   }
   if (place == nullptr) return std::nullopt;
   const Matrix6d covariance = InverseCovariance(Between(newest.T_map_kf, place->T_map_kf), covariances[place->id]);
-  const PlaceRegistration r =
-      RegisterToPlace(keyframes, place->id, newest.id, covariance, options_.min_way_m, options_.registration);
+  const PlaceRegistration r = RegisterToPlace(keyframes, place->id, newest.id, covariance, options_.min_way_m, options_.registration);
   if (!r.ok || r.num_held < kMinHeld || r.num_inliers < options_.min_inliers) return std::nullopt;
   if (r.inlier_ratio < options_.min_inlier_share || r.overlap_ratio < options_.min_overlap) return std::nullopt;
   const Matrix6d known = r.information + Matrix6d(Diagonal(kFree_m, kFree_rad).diagonal().cwiseInverse().asDiagonal());

@@ -21,14 +21,14 @@ namespace plumb::runtime {
 
 struct SpatialLoopOptions {
   OdometryDrift drift;
-  double min_way_m = 20;         // of the robot since the earlier keyframe: odometry's own map takes care of what is nearer
-  double max_distance_m = 2;     // between the two keyframes, ...
-  double max_search_m = 6;       // ... and three sigma more, but no more than this in all
-  double min_overlap = 0.6;      // share of points that meet a surface, ...
-  double min_inlier_share = 0.6; // ... and of these of those that lie on it
+  double min_way_m = 20;          // of the robot since the earlier keyframe: odometry's own map takes care of what is nearer
+  double max_distance_m = 2;      // between the two keyframes, ...
+  double max_search_m = 6;        // ... and three sigma more, but no more than this in all
+  double min_overlap = 0.6;       // share of points that meet a surface, ...
+  double min_inlier_share = 0.6;  // ... and of these of those that lie on it
   int min_inliers = 300;
   double floor_sigma_m = 0.005, floor_sigma_rad = 0.0005;  // of a loop, whatever the points say: the older place is bent by its own drift
-  double way_between_m = 1.0;    // from one loop to the next
+  double way_between_m = 1.0;                              // from one loop to the next
   PlaceRegistrationOptions registration;
   [[nodiscard]] std::string Check() const;  // empty, or the field, its value and the rule
 };

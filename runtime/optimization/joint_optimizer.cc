@@ -266,9 +266,9 @@ class Optimizer {
 
 std::string JointOptions::Check() const {
   const std::pair<const char*, double> positive[] = {{"point_sigma_m", point_sigma_m}, {"observation_floor_m", observation_floor_m},
-      {"observation_floor_rad", observation_floor_rad}, {"observation_loss", observation_loss}, {"gravity_sigma_rad", gravity_sigma_rad}, {"bias_sigma_m", bias_sigma_m},
-      {"thickness_sigma_m", thickness_sigma_m}, {"tilt_sigma_rad", tilt_sigma_rad}, {"level_sigma_m", level_sigma_m},
-      {"place_sigma_m", place_sigma_m}};
+      {"observation_floor_rad", observation_floor_rad}, {"observation_loss", observation_loss},
+      {"gravity_sigma_rad", gravity_sigma_rad}, {"bias_sigma_m", bias_sigma_m}, {"thickness_sigma_m", thickness_sigma_m},
+      {"tilt_sigma_rad", tilt_sigma_rad}, {"level_sigma_m", level_sigma_m}, {"place_sigma_m", place_sigma_m}};
   for (const auto& [name, value] : positive) {
     if (!(value > 0)) return fmt::format("JointOptions.{} = {}; must be > 0", name, value);
   }

@@ -153,19 +153,20 @@ double Mean(const std::vector<double>& values) {
 }
 
 void PrintHead() {
-  fmt::print("{:<32} {:>6} {:>7} {:>8} {:>8} {:>8} {:>12} {:>11} {:>6} {:>9} {:>9} {:>9} {:>9} {:>8} {:>8} {:>8} {:>8}\n", "plan", "s", "m", "odo cm",
-             "ATE cm", "best cm", "loop cm", "walls", "twice", "off mm", "95% mm", "turn deg", "95% deg", "odo ms", "p99 ms", "map ms", "polish s");
+  fmt::print("{:<32} {:>6} {:>7} {:>8} {:>8} {:>8} {:>12} {:>11} {:>6} {:>9} {:>9} {:>9} {:>9} {:>8} {:>8} {:>8} {:>8}\n", "plan", "s", "m",
+             "odo cm", "ATE cm", "best cm", "loop cm", "walls", "twice", "off mm", "95% mm", "turn deg", "95% deg", "odo ms", "p99 ms",
+             "map ms", "polish s");
 }
 
 void PrintRow(const std::string& name, const tools::SimulateSummary& simulated, double odometry_m, double map_m, double best_m,
               std::pair<double, double> loop_m, WallScore& walls, const Driven& driven, double polish_ms) {
   fmt::print(
-      "{:<32} {:>6.0f} {:>7.1f} {:>8.2f} {:>8.2f} {:>8.2f} {:>12} {:>11} {:>6} {:>9.1f} {:>9.1f} {:>9.3f} {:>9.3f} {:>8.2f} {:>8.2f} {:>8.2f} {:>8.2f}\n",
+      "{:<32} {:>6.0f} {:>7.1f} {:>8.2f} {:>8.2f} {:>8.2f} {:>12} {:>11} {:>6} {:>9.1f} {:>9.1f} {:>9.3f} {:>9.3f} {:>8.2f} {:>8.2f} "
+      "{:>8.2f} {:>8.2f}\n",
       name, simulated.duration_s, simulated.path_m, 100 * odometry_m, 100 * map_m, 100 * best_m,
-      fmt::format("{:.2f}/{:.2f}", 100 * loop_m.first, 100 * loop_m.second),
-      fmt::format("{}/{}", walls.found, walls.walls), walls.twice, 1000 * Percentile(walls.offsets_m, 0.5),
-      1000 * Percentile(walls.offsets_m, 0.95), Percentile(walls.turns_deg, 0.5), Percentile(walls.turns_deg, 0.95),
-      Mean(driven.odometry_ms), Percentile(driven.odometry_ms, 0.99), Mean(driven.mapping_ms),
+      fmt::format("{:.2f}/{:.2f}", 100 * loop_m.first, 100 * loop_m.second), fmt::format("{}/{}", walls.found, walls.walls), walls.twice,
+      1000 * Percentile(walls.offsets_m, 0.5), 1000 * Percentile(walls.offsets_m, 0.95), Percentile(walls.turns_deg, 0.5),
+      Percentile(walls.turns_deg, 0.95), Mean(driven.odometry_ms), Percentile(driven.odometry_ms, 0.99), Mean(driven.mapping_ms),
       polish_ms / 1000);
 }
 
@@ -211,7 +212,10 @@ int main(int argc, char** argv) {
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
     const double value = i + 1 < argc ? std::strtod(argv[i + 1], nullptr) : 0;
-    if (!argument.starts_with("--")) { plans.push_back(argument); continue; }
+    if (!argument.starts_with("--")) {
+      plans.push_back(argument);
+      continue;
+    }
     ++i;
     if (argument == "--seconds") options.min_duration_s = options.max_duration_s = value;
     if (argument == "--drop") drop_s = value;

@@ -106,7 +106,8 @@ TEST(SpatialPoseGraph, MergedKeyframesGoWhereTheirRootGoes) {
   }
   keyframes[2].merged = Keyframe::Merged{1, Between(keyframes[1].T_map_kf, keyframes[2].T_map_kf)};
   const Eigen::Isometry3d T_0_2 = Eigen::Translation3d(0, 0.5, 0) * keyframes[2].T_map_kf;
-  const std::vector<Eigen::Isometry3d> solved = SolvePoseGraph(keyframes, std::vector<SpatialEdge>{{0, 2, T_0_2, 1e-4 * Matrix6d::Identity(), false}});
+  const std::vector<SpatialEdge> edges = {{0, 2, T_0_2, 1e-4 * Matrix6d::Identity(), false}};
+  const std::vector<Eigen::Isometry3d> solved = SolvePoseGraph(keyframes, edges);
   EXPECT_TRUE(solved[2].isApprox(T_0_2, 1e-6));
   EXPECT_TRUE((solved[1] * keyframes[2].merged->T_into_kf).isApprox(solved[2], 1e-9));
 }

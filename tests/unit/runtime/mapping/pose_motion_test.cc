@@ -26,13 +26,14 @@ const Eigen::Isometry3d kA = Pose(3, -1, 0.5, {0.1, -0.3, 0.8}), kB = Pose(-2, 4
 
 Matrix6d SomeCovariance(double scale) {
   Matrix6d half = Matrix6d::Identity();
-  for (int i = 0; i < 6; ++i) for (int k = 0; k < i; ++k) half(i, k) = 0.1 * (i - 2 * k);
+  for (int i = 0; i < 6; ++i)
+    for (int k = 0; k < i; ++k) half(i, k) = 0.1 * (i - 2 * k);
   return scale * half * half.transpose();
 }
 
 TEST(PoseMotion, ComposedAndInverseCovariancesAreThoseOfTheDerivatives) {
   const Matrix6d a = SomeCovariance(1), b = SomeCovariance(0.3);
-  const Matrix6d by_a = Derivative(kA, [](const auto& T) { return T * kB; }), by_b = Derivative(kB, [](const auto& T) { return kA * T; });
+  const Matrix6d by_a = Derivative(kA, [](const auto&T) { return T * kB; }), by_b = Derivative(kB, [](const auto&T) { return kA * T; });
   EXPECT_LT((ComposedCovariance(kA, a, kB, b) - by_a * a * by_a.transpose() - by_b * b * by_b.transpose()).norm(), 1e-3);
   const Matrix6d inverse = Derivative(kA, [](const auto& T) { return T.inverse(); });
   EXPECT_LT((InverseCovariance(kA, a) - inverse * a * inverse.transpose()).norm(), 1e-3);

@@ -29,13 +29,15 @@ struct Patch {
 };
 
 std::vector<Patch> Corridor() {
-  return {{{-15, -1, 0}, {30, 0, 0}, {0, 0, 2.5}}, {{-15, 1, 0}, {30, 0, 0}, {0, 0, 2.5}}, {{-15, -1, 0}, {30, 0, 0}, {0, 2, 0}},
+  return {{{-15, -1, 0}, {30, 0, 0}, {0, 0, 2.5}},
+          {{-15, 1, 0}, {30, 0, 0}, {0, 0, 2.5}},
+          {{-15, -1, 0}, {30, 0, 0}, {0, 2, 0}},
           {{-15, -1, 2.5}, {30, 0, 0}, {0, 2, 0}}};
 }
 
 std::vector<Patch> Room() {
   return {{{-3, -2, 0}, {9, 0, 0}, {0, 0, 2.5}}, {{-3, 3, 0}, {9, 0, 0}, {0, 0, 2.5}}, {{-3, -2, 0}, {0, 5, 0}, {0, 0, 2.5}},
-          {{6, -2, 0}, {0, 5, 0}, {0, 0, 2.5}},  {{-3, -2, 0}, {9, 0, 0}, {0, 5, 0}},   {{-3, -2, 2.5}, {9, 0, 0}, {0, 5, 0}}};
+          {{6, -2, 0}, {0, 5, 0}, {0, 0, 2.5}},  {{-3, -2, 0}, {9, 0, 0}, {0, 5, 0}},  {{-3, -2, 2.5}, {9, 0, 0}, {0, 5, 0}}};
 }
 
 Keyframe Seen(const std::vector<Patch>& world, const Eigen::Isometry3d& truth, const Eigen::Isometry3d& believed, double travelled_m) {
@@ -130,7 +132,8 @@ TEST(PassesGate, TakesAsManyDegreesOfFreedomAsAreHeld) {
   const Matrix6d unit = 0.5 * Matrix6d::Identity();
   EXPECT_TRUE(PassesGate(Eigen::Isometry3d::Identity(), unit, Drift(4.0, 0, 0), unit, 6));
   EXPECT_FALSE(PassesGate(Eigen::Isometry3d::Identity(), unit, Drift(4.0, 0, 0), unit, 5));
-  EXPECT_FALSE(PassesGate(Eigen::Isometry3d::Identity(), 0.01 * unit, Drift(3.0, 0, 0), 0.01 * unit, 6)) << "three metres at ten centimetres";
+  EXPECT_FALSE(PassesGate(Eigen::Isometry3d::Identity(), 0.01 * unit, Drift(3.0, 0, 0), 0.01 * unit, 6))
+      << "three metres at ten centimetres";
 }
 
 // Twice around the house with a heading that drifts by two degrees a round.

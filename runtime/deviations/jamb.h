@@ -62,9 +62,13 @@ class JambEvidence {
 struct JambEstimate {
   bool known = false;
   double x_m = 0, sigma_m = 0;
+  bool on_reveal = false;  // something inside the wall's thickness was seen there, and not mostly farther back
 };
 
 // `planned_step_m`: how far the plan's frame stands into the opening beyond the wall's end. O(bins^2).
 [[nodiscard]] JambEstimate EstimateJamb(const JambEvidence& evidence, double planned_step_m, const JambOptions& options = {});
+
+// A jamb that is known from elsewhere to be at x_m: `known` if lines pass up to there and not beyond. O(bins).
+[[nodiscard]] JambEstimate ConfirmJamb(const JambEvidence& evidence, double x_m, double sigma_m, const JambOptions& options = {});
 
 }  // namespace plumb::runtime

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 #include <tuple>
 #include <vector>
 
@@ -28,6 +29,23 @@ std::string Amount(const DoorwayEntry& d) {
   if (std::abs(d.shift_m) >= kWorth_m) out = "shift " + Signed(100 * d.shift_m, 1) + " cm";
   if (std::abs(d.width_deviation_m) >= kWorth_m) out += (out.empty() ? "width " : ", width ") + Signed(100 * d.width_deviation_m, 1) + " cm";
   return out;
+}
+
+// Of a doorway with its wall, as the longest of the wall's faces that deviate is drawn.
+Eigen::Isometry2d MotionOf(const AGraph& plan, const Deviations& deviations, WallId wall) {
+  const SurfaceEntry* entry = nullptr;
+  for (const SurfaceEntry& s : deviations.surfaces) {
+    const Surface& surface = plan.surfaces[s.id.index()];
+    if (!wall.valid() || surface.wall != wall || s.status != "deviated") continue;
+    if (!entry || surface.length_m() > plan.surfaces[entry->id.index()].length_m()) entry = &s;
+  }
+  Eigen::Isometry2d motion = Eigen::Isometry2d::Identity();
+  if (!entry) return motion;
+  const Surface& surface = plan.surfaces[entry->id.index()];
+  const Vector2d pivot = surface.midpoint();
+  motion.linear() = Eigen::Rotation2Dd(entry->rotation_deg * std::numbers::pi / 180).toRotationMatrix();
+  motion.translation() = pivot + entry->translation_m * surface.normal.head<2>() - motion.linear() * pivot;
+  return motion;
 }
 
 std::string RoomName(const AGraph& plan, RoomId room) { return room.valid() ? EscapeXml(plan.rooms[room.index()].name) : "the outside"; }
@@ -65,11 +83,13 @@ std::string DrawDoorways(const AGraph& plan, StoreyId storey, const Deviations& 
     if (!IsOff(entry) || d.storey != storey) continue;
     const Vector2d through(std::cos(d.yaw_rad), std::sin(d.yaw_rad)), along(-through.y(), through.x());
     const double thickness_m = d.wall.valid() ? plan.walls[d.wall.index()].thickness_m : kDepth_m;
+    const Eigen::Isometry2d motion = MotionOf(plan, deviations, d.wall);
     const Vector2d middle = d.position.head<2>() + entry.shift_m * along, half = 0.5 * (d.width_m + entry.width_deviation_m) * along,
                    deep = 0.5 * thickness_m * through;
     fmt::format_to(std::back_inserter(out), "<path class=\"{}\" d=\"{}\"/>\n", entry.status == "missing" ? "missing" : "doorway",
-                   sheet.Closed({middle - half - deep, middle + half - deep, middle + half + deep, middle - half + deep}));
-    const Vector2d at = middle + (0.5 * thickness_m + kBeside_m) * through;
+                   sheet.Closed({motion * (middle - half - deep), motion * (middle + half - deep), motion * (middle + half + deep),
+                                 motion * (middle - half + deep)}));
+    const Vector2d at = motion * (middle + (0.5 * thickness_m + kBeside_m) * through);
     fmt::format_to(std::back_inserter(out), "<text class=\"doorway-amount\" text-anchor=\"middle\" x=\"{}\" y=\"{}\" font-size=\"18\">{}</text>\n",
                    Decimal(sheet.x(at.x())), Decimal(sheet.y(at.y())), Amount(entry));
   }

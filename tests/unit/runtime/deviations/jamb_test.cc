@@ -125,6 +125,38 @@ TEST(EstimateJamb, FacesThatEndAtDifferentPlacesAreNoJamb) {
   EXPECT_FALSE(EstimateJamb(view.evidence, 0).known);
 }
 
+TEST(EstimateJamb, CoarseSigmasDoNotPushIt) {
+  View view;  // given as four times as coarse as it is, and seen much more often from one side
+  view.Face(0, 0.02, 10);
+  view.Passed(0.004, 60);
+  JambEvidence coarse(0.5, 0.5);
+  for (int k = 0; k < 60; ++k) {
+    for (int i = 0; i < 25; ++i) coarse.AddPassed(kJamb_m + 0.0002 * k + 0.012 * i, 0.024, static_cast<uint32_t>(k));
+    if (k % 3 == 0) coarse.AddFace(0, kJamb_m - 0.001 * k, 0.024, static_cast<uint32_t>(k));
+    if (k % 3 == 0) coarse.AddFace(0, kJamb_m - 0.06 - 0.001 * k, 0.024, static_cast<uint32_t>(k));
+  }
+  EXPECT_NEAR(EstimateJamb(view.evidence, 0).x_m, kJamb_m, 0.003);
+  EXPECT_NEAR(EstimateJamb(coarse, 0).x_m, kJamb_m, 0.006);
+}
+
+TEST(EstimateJamb, SaysWhetherTheRevealIsSeenThere) {
+  View reveal, casing;
+  for (View* view : {&reveal, &casing}) view->Passed(0.01, 20);
+  reveal.Inside(60, kJamb_m, 0.006);
+  casing.Inside(60, kJamb_m - 0.06, 0.006);
+  EXPECT_TRUE(EstimateJamb(reveal.evidence, 0).on_reveal);
+  EXPECT_FALSE(EstimateJamb(casing.evidence, 0).on_reveal);
+}
+
+TEST(ConfirmJamb, HoldsWhereLinesPassUpToItAndNotBeyond) {
+  View view;
+  view.Passed(0.01, 20);
+  EXPECT_TRUE(ConfirmJamb(view.evidence, kJamb_m, 0.004).known);
+  EXPECT_FALSE(ConfirmJamb(view.evidence, kJamb_m + 0.15, 0.004).known) << "lines pass behind it";
+  EXPECT_FALSE(ConfirmJamb(view.evidence, kJamb_m - 0.10, 0.004).known) << "nothing passes beside it";
+  EXPECT_FALSE(ConfirmJamb(view.evidence, kJamb_m, 0.05).known);
+}
+
 TEST(JambOptions, NamesTheFieldThatIsWrong) {
   EXPECT_EQ(JambOptions().Check(), "");
   JambOptions options;

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kMinSquare = 0.94;  // cos 20 deg, between the face's normal and the wall that the doorway is in
 constexpr double kAtJamb_m = 0.05;
-constexpr double kBeside_m = 0.1;    // the face may begin so far from the wall's own
+constexpr double kBeside_m = 0.1;  // the face may begin so far from the wall's own
 
 WallFrame FrameOf(const AGraph& plan, SurfaceId reference) {
   const Surface& s = plan.surfaces[reference.index()];
@@ -20,7 +20,8 @@ WallFrame FrameOf(const AGraph& plan, SurfaceId reference) {
 }  // namespace
 
 SurfaceId CornerBeside(const AGraph& plan, const BuiltDoorway& planned, double side) {
-  const double u_m = side < 0 ? planned.right.u_m : planned.left.u_m, w_min_m = planned.w_a_m - kBeside_m, w_max_m = planned.w_b_m + kBeside_m;
+  const double u_m = side < 0 ? planned.right.u_m : planned.left.u_m, w_min_m = planned.w_a_m - kBeside_m,
+               w_max_m = planned.w_b_m + kBeside_m;
   SurfaceId best;
   double best_m = kAtJamb_m;
   for (size_t i = 0; i < plan.surfaces.size(); ++i) {

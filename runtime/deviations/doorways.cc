@@ -17,27 +17,27 @@
 namespace plumb::runtime {
 namespace {
 
-constexpr double kReach_m = 0.5;          // of PanelGrid's cells
-constexpr double kMinWall_m = 0.04;       // of plain wall beside a jamb: less, and the next wall's face is the jamb
-constexpr double kCornerReach_m = 0.3;    // behind a corner nothing passes
-constexpr double kMaxCorner_m = 0.02;     // a corner that is more off is its own wall's deviation
+constexpr double kReach_m = 0.5;        // of PanelGrid's cells
+constexpr double kMinWall_m = 0.04;     // of plain wall beside a jamb: less, and the next wall's face is the jamb
+constexpr double kCornerReach_m = 0.3;  // behind a corner nothing passes
+constexpr double kMaxCorner_m = 0.02;   // a corner that is more off is its own wall's deviation
 // A casing on the wall's faces narrows the opening by so much on both sides alike.
 constexpr double kCasing_m = 0.12, kCasingUneven_m = 0.03;
-constexpr double kOnFace_m = 0.05;        // of a face, 2.5 sigma of a range
-constexpr double kBehind_m = 0.02;        // what is inside the wall is not on its far face
-constexpr double kBeyond_m = 0.10;        // a line that goes on so far has passed the wall
-constexpr double kBefore_m = 0.05;        // it starts so far from it
-constexpr double kMaxSlant = 0.5;         // tangent; flatter lines smear a face's end along the wall
-constexpr double kMinIncidence = 0.25;    // sine, of lines that pass
-constexpr double kRange_m = 0.02;         // sigma of a range,
-constexpr double kPlace_m = 0.006;        // of where a sweep was taken,
-constexpr double kBeam_rad = 0.0015;      // and of a line's direction
+constexpr double kOnFace_m = 0.05;      // of a face, 2.5 sigma of a range
+constexpr double kBehind_m = 0.02;      // what is inside the wall is not on its far face
+constexpr double kBeyond_m = 0.10;      // a line that goes on so far has passed the wall
+constexpr double kBefore_m = 0.05;      // it starts so far from it
+constexpr double kMaxSlant = 0.5;       // tangent; flatter lines smear a face's end along the wall
+constexpr double kMinIncidence = 0.25;  // sine, of lines that pass
+constexpr double kRange_m = 0.02;       // sigma of a range,
+constexpr double kPlace_m = 0.006;      // of where a sweep was taken,
+constexpr double kBeam_rad = 0.0015;    // and of a line's direction
 constexpr size_t kAllPoints = SIZE_MAX;
 // Walled up: what is seen in the opening is flush with the wall.
 constexpr double kFlush_m = 0.015, kFlushRms_m = 0.035;
 constexpr double kCell_m = 0.15;
-constexpr double kMinFilled = 0.8;        // of the opening's columns
-constexpr double kMaxPassed = 0.01;       // of its lines
+constexpr double kMinFilled = 0.8;   // of the opening's columns
+constexpr double kMaxPassed = 0.01;  // of its lines
 constexpr int kMinFillLines = 100;
 
 // What lies in the opening's plane on one of the wall's sides.
@@ -49,20 +49,26 @@ struct Filling {
     if (lines < kMinFillLines || columns.empty()) return false;
     const auto filled = std::count_if(columns.begin(), columns.end(), [](uint32_t n) { return n >= 3; });
     const double mean = depth / lines, rms = std::sqrt(std::max(0.0, depth2 / lines - mean * mean));
-    return static_cast<double>(filled) >= kMinFilled * static_cast<double>(columns.size()) && std::abs(mean) <= kFlush_m && rms <= kFlushRms_m;
+    return static_cast<double>(filled) >= kMinFilled * static_cast<double>(columns.size()) && std::abs(mean) <= kFlush_m &&
+           rms <= kFlushRms_m;
   }
 };
 
 struct Site {
   BuiltDoorway at;
   std::optional<CornerJamb> right_corner, left_corner;
-  double middle_m = 0;          // u between the planned jambs
+  double middle_m = 0;  // u between the planned jambs
   JambEvidence right, left;
   double passed = 0;
   Filling fillings[2] = {};
 
   Site(const BuiltDoorway& b, const std::optional<CornerJamb>& corner_at_right, const std::optional<CornerJamb>& corner_at_left)
-      : at(b), right_corner(corner_at_right), left_corner(corner_at_left), middle_m(0.5 * (b.left.u_m + b.right.u_m)), right(b.right.outward_m, Inward()), left(b.left.outward_m, Inward()) {
+      : at(b),
+        right_corner(corner_at_right),
+        left_corner(corner_at_left),
+        middle_m(0.5 * (b.left.u_m + b.right.u_m)),
+        right(b.right.outward_m, Inward()),
+        left(b.left.outward_m, Inward()) {
     for (Filling& f : fillings) f.columns.assign(static_cast<size_t>(std::max(0.0, std::floor(Width() / kCell_m) - 1)), 0);
   }
 
@@ -145,7 +151,9 @@ double Density(double e_m, double variance_m2) { return std::exp(-0.5 * e_m * e_
 
 // Shift and width are each as planned or not; the three cases in which one is not share the prior.
 double ProbabilityDeviated(const DoorwayDeviation& d, const DoorwayOptions& options) {
-  const auto likelihood = [&](double e_m, double sigma_m, double spread_m) { return Density(e_m, sigma_m * sigma_m + spread_m * spread_m); };
+  const auto likelihood = [&](double e_m, double sigma_m, double spread_m) {
+    return Density(e_m, sigma_m * sigma_m + spread_m * spread_m);
+  };
   const double shift[] = {likelihood(d.shift_m, d.sigma_shift_m, options.tolerance_m),
                           likelihood(d.shift_m, d.sigma_shift_m, options.typical_deviation_m)};
   const double width[] = {likelihood(d.width_deviation_m, d.sigma_width_m, options.tolerance_m),
@@ -163,14 +171,16 @@ DoorwayStatus StatusOf(const DoorwayDeviation& d, const DoorwayOptions& options)
   return large && d.p_deviated >= options.min_p_deviated ? DoorwayStatus::kDeviated : DoorwayStatus::kAsPlanned;
 }
 
-JambEstimate JambAt(const JambEvidence& evidence, const PlannedJamb& planned, const std::optional<CornerJamb>& corner, const JambOptions& options) {
+JambEstimate JambAt(const JambEvidence& evidence, const PlannedJamb& planned, const std::optional<CornerJamb>& corner,
+                    const JambOptions& options) {
   return corner ? ConfirmJamb(evidence, corner->x_m, corner->sigma_m, options) : EstimateJamb(evidence, planned.step_m, options);
 }
 
 // Both sides in by the same, and the reveal not seen to be there.
 bool MayBeCasing(const JambEstimate& right, const JambEstimate& left, double least_m) {
   const double in_m = 0.5 * (right.x_m + left.x_m);
-  return in_m >= 0.5 * least_m && in_m <= kCasing_m && std::abs(right.x_m - left.x_m) <= kCasingUneven_m && !right.on_reveal && !left.on_reveal;
+  return in_m >= 0.5 * least_m && in_m <= kCasing_m && std::abs(right.x_m - left.x_m) <= kCasingUneven_m && !right.on_reveal &&
+         !left.on_reveal;
 }
 
 DoorwayDeviation Judge(const Site& site, const AGraph& plan, const JointResult& estimate, const DoorwayOptions& options) {
@@ -236,7 +246,8 @@ class SiteFinder {
   const PlannedDoorways planned_;
 };
 
-std::vector<Site> Sites(const AGraph& plan, const JointResult& estimate, const std::vector<WallPresence>& presence, const DoorwayOptions& options) {
+std::vector<Site> Sites(const AGraph& plan, const JointResult& estimate, const std::vector<WallPresence>& presence,
+                        const DoorwayOptions& options) {
   std::vector<const WallEstimate*> by_wall(plan.walls.size(), nullptr);
   for (const WallEstimate& w : estimate.walls) {
     const bool missing = w.wall.index() < presence.size() && presence[w.wall.index()].missing;
@@ -265,14 +276,18 @@ const char* StatusName(DoorwayStatus status) {
 }
 
 std::string DoorwayOptions::Check() const {
-  const std::pair<const char*, double> positive[] = {{"tolerance_m", tolerance_m}, {"typical_deviation_m", typical_deviation_m},
-      {"max_mdb_m", max_mdb_m}, {"max_wall_sigma_m", max_wall_sigma_m}, {"max_sight_m", max_sight_m}};
+  const std::pair<const char*, double> positive[] = {{"tolerance_m", tolerance_m},
+                                                     {"typical_deviation_m", typical_deviation_m},
+                                                     {"max_mdb_m", max_mdb_m},
+                                                     {"max_wall_sigma_m", max_wall_sigma_m},
+                                                     {"max_sight_m", max_sight_m}};
   for (const auto& [name, value] : positive) {
     if (!(value > 0 && std::isfinite(value))) return fmt::format("DoorwayOptions.{} = {}; must be a positive number", name, value);
   }
   if (!(min_deviation_m >= 0)) return fmt::format("DoorwayOptions.min_deviation_m = {}; must be >= 0", min_deviation_m);
   if (!(prior > 0 && prior < 1)) return fmt::format("DoorwayOptions.prior = {}; must be in (0, 1)", prior);
-  if (!(min_p_deviated >= 0 && min_p_deviated <= 1)) return fmt::format("DoorwayOptions.min_p_deviated = {}; must be in [0, 1]", min_p_deviated);
+  if (!(min_p_deviated >= 0 && min_p_deviated <= 1))
+    return fmt::format("DoorwayOptions.min_p_deviated = {}; must be in [0, 1]", min_p_deviated);
   return jamb.Check();
 }
 

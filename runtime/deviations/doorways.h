@@ -14,14 +14,14 @@ namespace plumb::runtime {
 
 struct DoorwayOptions {
   JambOptions jamb;
-  double tolerance_m = 0.005;       // of construction (standard deviation) that the test allows for, in shift and width each
-  double min_deviation_m = 0.02;    // smaller ones are as planned, however certain
-  double typical_deviation_m = 0.1; // of doorways that deviate (standard deviation)
-  double prior = 0.2;               // share of them
+  double tolerance_m = 0.005;        // of construction (standard deviation) that the test allows for, in shift and width each
+  double min_deviation_m = 0.02;     // smaller ones are as planned, however certain
+  double typical_deviation_m = 0.1;  // of doorways that deviate (standard deviation)
+  double prior = 0.2;                // share of them
   double min_p_deviated = 0.95;
-  double max_mdb_m = 0.1;           // a doorway of which only larger deviations would have been found was not tested
-  double max_wall_sigma_m = 0.03;   // a wall whose own place is known worse says nothing about its doorways
-  double max_sight_m = 8;           // farther lines pass too many places at once
+  double max_mdb_m = 0.1;                   // a doorway of which only larger deviations would have been found was not tested
+  double max_wall_sigma_m = 0.03;           // a wall whose own place is known worse says nothing about its doorways
+  double max_sight_m = 8;                   // farther lines pass too many places at once
   [[nodiscard]] std::string Check() const;  // empty, or the field, its value and the rule
 };
 

@@ -12,14 +12,14 @@ namespace plumb::runtime {
 namespace {
 
 constexpr std::array<double, JambEvidence::kClasses> kSigmas_m = {0.007, 0.011, 0.016, 0.025};  // of a class: its largest
-constexpr double kFrame_m = 0.15;       // a frame's parts lie so far behind the jamb
-constexpr double kDensity_m = 0.08;     // up to so far from the jamb lines are about as dense as at it
+constexpr double kFrame_m = 0.15;    // a frame's parts lie so far behind the jamb
+constexpr double kDensity_m = 0.08;  // up to so far from the jamb lines are about as dense as at it
 constexpr int kRounds = 3;
 constexpr double kJambShare = 0.8, kFrameShare = 0.15;
-constexpr double kAbout_m = 0.25;       // lines so far from the jamb may contradict it ...
-constexpr double kClear_m = 0.02;       // ... if they are so far on its wrong side
+constexpr double kAbout_m = 0.25;  // lines so far from the jamb may contradict it ...
+constexpr double kClear_m = 0.02;  // ... if they are so far on its wrong side
 constexpr double kBorder_m = 0.01;
-constexpr double kReachesShare = 0.1;   // of the lines that pass beside a jamb, of equal widths, pass right at it
+constexpr double kReachesShare = 0.02;  // of the lines that pass beside a jamb pass right at it: evenly spread it is a tenth
 constexpr double kFaceEndShare = 0.02;  // of what is seen on a face near its end lies beyond
 
 double Phi(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
@@ -63,9 +63,13 @@ class JambSearch {
  public:
   JambSearch(const JambEvidence& evidence, const JambOptions& options)
       : e_(evidence), options_(options), by_wall_(evidence.bins_, 0.0), by_passed_(evidence.bins_, 0.0) {
-    for (const JambEvidence::Histogram& face : e_.faces_) AddAll(face, [this](double d, double s) { return OneSided(d, s); }, by_wall_);
-    AddAll(e_.inside_, [this](double d, double s) { return Inside(d, s); }, by_wall_);
-    AddAll(e_.passed_, [this](double d, double s) { return OneSided(-d, s); }, by_passed_);
+    for (const JambEvidence::Histogram& face : e_.faces_)
+      AddAll(
+          face, [this](double d, double s) { return OneSided(d, s); }, by_wall_);
+    AddAll(
+        e_.inside_, [this](double d, double s) { return Inside(d, s); }, by_wall_);
+    AddAll(
+        e_.passed_, [this](double d, double s) { return OneSided(-d, s); }, by_passed_);
   }
 
   JambEstimate Run(double planned_step_m) {
@@ -89,10 +93,10 @@ class JambSearch {
   }
 
   JambEstimate Confirm(double x_m, double sigma_m) const {
-    const double beyond = Count(e_.passed_, x_m - kAbout_m, x_m - kClear_m), next = Count(e_.passed_, x_m + kClear_m, x_m + 3 * kClear_m);
+    const double beyond = Count(e_.passed_, x_m - kAbout_m, x_m - kClear_m), beside = CountPassed(x_m);
     const double at = Count(e_.passed_, x_m - kClear_m, x_m + kClear_m);
-    const bool known = CountPassed(x_m) >= options_.min_lines && e_.passed_seen_.keyframes >= options_.min_keyframes &&
-                       beyond <= options_.max_contradicted * CountPassed(x_m) && at >= kReachesShare * next;
+    const bool known = beside >= options_.min_lines && e_.passed_seen_.keyframes >= options_.min_keyframes &&
+                       beyond <= options_.max_contradicted * beside && at >= kReachesShare * beside;
     return {known && sigma_m <= options_.max_sigma_m, x_m, std::hypot(sigma_m, options_.floor_sigma_m), true};
   }
 
@@ -169,7 +173,8 @@ class JambSearch {
   [[nodiscard]] double CountPassed(double x_m) const { return Count(e_.passed_, x_m - kClear_m, x_m + options_.near_m); }
 
   [[nodiscard]] bool IsSeen(double x_m) const {
-    return std::min(CountWall(x_m), CountPassed(x_m)) >= options_.min_lines && std::min(e_.wall_seen_.keyframes, e_.passed_seen_.keyframes) >= options_.min_keyframes;
+    return std::min(CountWall(x_m), CountPassed(x_m)) >= options_.min_lines &&
+           std::min(e_.wall_seen_.keyframes, e_.passed_seen_.keyframes) >= options_.min_keyframes;
   }
 
   [[nodiscard]] bool IsOnReveal(double x_m) const {
@@ -215,8 +220,11 @@ class JambSearch {
 };
 
 std::string JambOptions::Check() const {
-  const std::pair<const char*, double> positive[] = {{"floor_sigma_m", floor_sigma_m}, {"max_sigma_m", max_sigma_m}, {"near_m", near_m},
-      {"max_step_m", max_step_m}, {"max_faces_apart_m", max_faces_apart_m}};
+  const std::pair<const char*, double> positive[] = {{"floor_sigma_m", floor_sigma_m},
+                                                     {"max_sigma_m", max_sigma_m},
+                                                     {"near_m", near_m},
+                                                     {"max_step_m", max_step_m},
+                                                     {"max_faces_apart_m", max_faces_apart_m}};
   for (const auto& [name, value] : positive) {
     if (!(value > 0 && std::isfinite(value))) return fmt::format("JambOptions.{} = {}; must be a positive number", name, value);
   }

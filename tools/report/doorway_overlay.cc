@@ -27,7 +27,8 @@ std::string Amount(const DoorwayEntry& d) {
   if (d.status == "missing") return "walled up";
   std::string out;
   if (std::abs(d.shift_m) >= kWorth_m) out = "shift " + Signed(100 * d.shift_m, 1) + " cm";
-  if (std::abs(d.width_deviation_m) >= kWorth_m) out += (out.empty() ? "width " : ", width ") + Signed(100 * d.width_deviation_m, 1) + " cm";
+  if (std::abs(d.width_deviation_m) >= kWorth_m)
+    out += (out.empty() ? "width " : ", width ") + Signed(100 * d.width_deviation_m, 1) + " cm";
   return out;
 }
 
@@ -58,14 +59,16 @@ std::string Sense(const AGraph& plan, const Doorway& doorway, const DoorwayEntry
 
 std::string Row(const AGraph& plan, const DoorwayEntry& d) {
   const Doorway& doorway = plan.doorways[d.id.index()];
-  const std::string head = fmt::format(
-      "<tr{}><td class=\"t\">{}<small>{}</small></td><td class=\"t\">{} &ndash; {}</td>", IsOff(d) ? " class=\"off\"" : "",
-      doorway.name.empty() ? fmt::format("doorway {}", d.id.value) : EscapeXml(doorway.name), EscapeXml(d.guid), RoomName(plan, doorway.room_a),
-      RoomName(plan, doorway.room_b));
-  if (d.status == "missing") return head + fmt::format("<td class=\"t\">walled up</td><td></td><td>{:.2f}</td><td></td><td></td></tr>\n", doorway.width_m);
-  return head + fmt::format("<td class=\"t\">{}</td><td>{} &plusmn; {:.1f}{}</td><td>{:.2f}</td><td>{} &plusmn; {:.1f}</td><td>{:.3f}</td></tr>\n",
-                            d.status == "deviated" ? "deviated" : "as planned", Signed(100 * d.shift_m, 1), 100 * d.sigma_shift_m, Sense(plan, doorway, d),
-                            doorway.width_m, Signed(100 * d.width_deviation_m, 1), 100 * d.sigma_width_m, d.p_deviated);
+  const std::string head =
+      fmt::format("<tr{}><td class=\"t\">{}<small>{}</small></td><td class=\"t\">{} &ndash; {}</td>", IsOff(d) ? " class=\"off\"" : "",
+                  doorway.name.empty() ? fmt::format("doorway {}", d.id.value) : EscapeXml(doorway.name), EscapeXml(d.guid),
+                  RoomName(plan, doorway.room_a), RoomName(plan, doorway.room_b));
+  if (d.status == "missing")
+    return head + fmt::format("<td class=\"t\">walled up</td><td></td><td>{:.2f}</td><td></td><td></td></tr>\n", doorway.width_m);
+  return head +
+         fmt::format("<td class=\"t\">{}</td><td>{} &plusmn; {:.1f}{}</td><td>{:.2f}</td><td>{} &plusmn; {:.1f}</td><td>{:.3f}</td></tr>\n",
+                     d.status == "deviated" ? "deviated" : "as planned", Signed(100 * d.shift_m, 1), 100 * d.sigma_shift_m,
+                     Sense(plan, doorway, d), doorway.width_m, Signed(100 * d.width_deviation_m, 1), 100 * d.sigma_width_m, d.p_deviated);
 }
 
 }  // namespace
@@ -90,7 +93,8 @@ std::string DrawDoorways(const AGraph& plan, StoreyId storey, const Deviations& 
                    sheet.Closed({motion * (middle - half - deep), motion * (middle + half - deep), motion * (middle + half + deep),
                                  motion * (middle - half + deep)}));
     const Vector2d at = motion * (middle + (0.5 * thickness_m + kBeside_m) * through);
-    fmt::format_to(std::back_inserter(out), "<text class=\"doorway-amount\" text-anchor=\"middle\" x=\"{}\" y=\"{}\" font-size=\"18\">{}</text>\n",
+    fmt::format_to(std::back_inserter(out),
+                   "<text class=\"doorway-amount\" text-anchor=\"middle\" x=\"{}\" y=\"{}\" font-size=\"18\">{}</text>\n",
                    Decimal(sheet.x(at.x())), Decimal(sheet.y(at.y())), Amount(entry));
   }
   return out;
@@ -102,8 +106,9 @@ std::string DoorwayTable(const AGraph& plan, const Deviations& deviations) {
     if (d.status != "unobserved") rows.push_back(&d);
   }
   if (rows.empty()) return {};
-  std::stable_sort(rows.begin(), rows.end(),
-                   [](const DoorwayEntry* a, const DoorwayEntry* b) { return std::tuple(IsOff(*a), Size(*a)) > std::tuple(IsOff(*b), Size(*b)); });
+  std::stable_sort(rows.begin(), rows.end(), [](const DoorwayEntry* a, const DoorwayEntry* b) {
+    return std::tuple(IsOff(*a), Size(*a)) > std::tuple(IsOff(*b), Size(*b));
+  });
   std::string body;
   for (const DoorwayEntry* d : rows) body += Row(plan, *d);
   const size_t rest = deviations.doorways.size() - rows.size();
@@ -111,8 +116,10 @@ std::string DoorwayTable(const AGraph& plan, const Deviations& deviations) {
       "<h2>Doorways</h2>\n<div class=\"scroll\"><table><thead><tr><th class=\"t\">doorway</th><th class=\"t\">between</th><th "
       "class=\"t\">verdict</th><th>shift along the wall &plusmn; &sigma;, cm</th><th>planned width, m</th><th>width off &plusmn; &sigma;, "
       "cm</th><th>P(deviated)</th></tr></thead><tbody>\n{}</tbody></table></div>\n{}",
-      body, rest == 0 ? "" : fmt::format("<p class=\"note\">Doorways whose two jambs were not seen well enough to judge: {} of {}.</p>\n", rest,
-                                         deviations.doorways.size()));
+      body,
+      rest == 0 ? ""
+                : fmt::format("<p class=\"note\">Doorways whose two jambs were not seen well enough to judge: {} of {}.</p>\n", rest,
+                              deviations.doorways.size()));
 }
 
 }  // namespace plumb::tools

@@ -126,22 +126,22 @@ TEST(EstimateJamb, FacesThatEndAtDifferentPlacesAreNoJamb) {
 }
 
 TEST(EstimateJamb, CoarseSigmasDoNotPushIt) {
-  View view;  // given as four times as coarse as it is, and seen much more often from one side
-  view.Face(0, 0.02, 10);
-  view.Passed(0.004, 60);
-  JambEvidence coarse(0.5, 0.5);
-  for (int k = 0; k < 60; ++k) {
-    for (int i = 0; i < 25; ++i) coarse.AddPassed(kJamb_m + 0.0002 * k + 0.012 * i, 0.024, static_cast<uint32_t>(k));
-    if (k % 3 == 0) coarse.AddFace(0, kJamb_m - 0.001 * k, 0.024, static_cast<uint32_t>(k));
-    if (k % 3 == 0) coarse.AddFace(0, kJamb_m - 0.06 - 0.001 * k, 0.024, static_cast<uint32_t>(k));
+  JambEvidence evidence(0.5, 0.5);  // evenly spread, sharp, and taken for much coarser
+  for (uint32_t k = 0; k < 60; ++k) {
+    const double phase = (k % 12) / 12.0;
+    for (int i = 0; i < 25; ++i) evidence.AddPassed(kJamb_m + 0.012 * (i + phase), 0.015, k);
+    for (int i = 0; i < 10; ++i) evidence.AddFace(0, kJamb_m - 0.036 * (i + phase), 0.015, k);
   }
-  EXPECT_NEAR(EstimateJamb(view.evidence, 0).x_m, kJamb_m, 0.003);
-  EXPECT_NEAR(EstimateJamb(coarse, 0).x_m, kJamb_m, 0.006);
+  EXPECT_NEAR(EstimateJamb(evidence, 0).x_m, kJamb_m, 0.006);
 }
 
 TEST(EstimateJamb, SaysWhetherTheRevealIsSeenThere) {
   View reveal, casing;
-  for (View* view : {&reveal, &casing}) view->Passed(0.01, 20);
+  for (View* view : {&reveal, &casing}) {
+    view->Face(0, 0.02, 20);
+    view->Face(1, 0.02, 20);
+    view->Passed(0.01, 20);
+  }
   reveal.Inside(60, kJamb_m, 0.006);
   casing.Inside(60, kJamb_m - 0.06, 0.006);
   EXPECT_TRUE(EstimateJamb(reveal.evidence, 0).on_reveal);

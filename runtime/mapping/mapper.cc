@@ -68,9 +68,16 @@ bool Mapper::AddScan(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar
   if (planar_step) planar_loops_.Move(Leveled(T_odom_lidar).pose, *planar_step);
   if (!window_ && planar_step) planar_loops_.Open();
   if (!window_) window_.emplace(options_, deskewed.stamp_s, T_odom_lidar);
-  window_->Add(deskewed, T_odom_lidar, planar_step.has_value(), timed ? Smear() : SmearOf(deskewed.stamp_s, T_odom_lidar));
+  window_->Add(deskewed, T_odom_lidar, planar_step.has_value(), timed ? Smear() : SmearOf(deskewed.stamp_s, T_odom_lidar),
+               VelocitySinceLast(deskewed.stamp_s, T_odom_lidar));
   last_scan_ = LastScan{deskewed.stamp_s, T_odom_lidar};
   return grown;
+}
+
+// In the axes of odom.
+Eigen::Vector3d Mapper::VelocitySinceLast(double stamp_s, const Eigen::Isometry3d& T_odom_lidar) const {
+  if (!last_scan_ || stamp_s <= last_scan_->stamp_s) return Eigen::Vector3d::Zero();
+  return (T_odom_lidar.translation() - last_scan_->T_odom_lidar.translation()) / (stamp_s - last_scan_->stamp_s);
 }
 
 // Points of a sweep are evenly spread over the sensor's way meanwhile, at the speed since the last scan, and the pose is that of their

@@ -46,6 +46,7 @@ class Mapper {
  private:
   [[nodiscard]] bool WindowIsFull(double stamp_s, const Eigen::Isometry3d& T_odom_lidar) const;
   bool CloseWindow();
+  [[nodiscard]] Eigen::Vector3d VelocitySinceLast(double stamp_s, const Eigen::Isometry3d& T_odom_lidar) const;
   [[nodiscard]] Smear SmearOf(double stamp_s, const Eigen::Isometry3d& T_odom_lidar) const;
   void AddSegment(const Segment& segment, const Keyframe& keyframe);
   void Empty(size_t i);

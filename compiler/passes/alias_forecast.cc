@@ -8,7 +8,7 @@
 #include <map>
 #include <tuple>
 
-#include "compiler/passes/for_each_job.h"
+#include "compiler/geometry/for_each_job.h"
 #include "compiler/passes/polygon.h"
 #include "compiler/passes/twin_classes.h"
 

@@ -16,6 +16,9 @@
 namespace plumb::compiler {
 namespace {
 
+constexpr std::array<double, 3> kFreePlaces = {0.05, 0.5, 0.95};  // along a bridge, that nothing may cover
+constexpr size_t kFootprintsPerBridge = 20;                       // and more: to look about the bridges alone costs less than a second map
+
 // A corner of an outline and the edge that leaves it.
 struct Corner {
   Eigen::Vector2d at, next;
@@ -55,8 +58,7 @@ class Cover {
     tree_ = BoxTree<2>(std::move(boxes));
   }
   bool IsFree(const Eigen::Vector2d& from, const Eigen::Vector2d& to) const {
-    const std::array<double, 3> places = {0.05, 0.5, 0.95};
-    return std::none_of(places.begin(), places.end(), [&](double t) { return Holds(from + t * (to - from)); });
+    return std::none_of(kFreePlaces.begin(), kFreePlaces.end(), [&](double t) { return Holds(from + t * (to - from)); });
   }
 
  private:
@@ -130,6 +132,40 @@ class Slivers {
   std::vector<bool> is_place_;
 };
 
+std::vector<Bridge> Kept(const std::vector<Bridge>& bridges, const std::vector<bool>& keep) {
+  std::vector<Bridge> out;
+  for (size_t b = 0; b < keep.size(); ++b) {
+    if (keep[b]) out.push_back(bridges[b]);
+  }
+  return out;
+}
+
+// The bridges and what bounds the faces of the floor's map that they lie in, which is all that tells what they separate.
+Floor FloorAbout(const std::vector<Bridge>& bridges, const Floor& floor) {
+  const FaceLocator locator(floor);
+  std::set<uint32_t> faces, footprints;
+  for (const Bridge& b : bridges) {
+    for (const double t : kFreePlaces) faces.insert(locator.FaceAt(b.from + t * (b.to - b.from)));
+    footprints.insert({b.footprint_a, b.footprint_b});
+  }
+  for (const uint32_t f : faces) {
+    const auto add = [&footprints](const std::vector<BoundaryEdge>& ring) {
+      for (const BoundaryEdge& e : ring) footprints.insert(e.footprints.begin(), e.footprints.end());
+    };
+    add(floor.faces[f].outer);
+    for (const auto& hole : floor.faces[f].holes) add(hole);
+  }
+  Floor out;
+  out.level = floor.level;
+  std::map<uint32_t, uint32_t> place;
+  for (const uint32_t f : footprints) {
+    place[f] = static_cast<uint32_t>(out.footprints.size());
+    out.footprints.push_back(floor.footprints[f]);
+  }
+  for (const Bridge& b : bridges) out.bridges.push_back({b.from, b.to, place[b.footprint_a], place[b.footprint_b]});
+  return out;
+}
+
 }  // namespace
 
 std::string BridgeOptions::Check() const {
@@ -165,15 +201,21 @@ std::vector<Bridge> FindBridges(const Floor& floor, double min_gap_m, double max
 }
 
 Expected<void> BridgeGaps(const BridgeOptions& options, const PlanarMapOptions& map_options, Floor& floor) {
-  floor.bridges = FindBridges(floor, map_options.snap_radius_m, options.max_gap_m);
-  if (Expected<void> ok = BuildPlanarMap(floor, map_options); !ok || floor.bridges.empty()) return ok;
-  const std::vector<bool> separating = Slivers(floor, options.max_gap_m).Separating();
-  std::vector<Bridge> kept;
-  for (size_t b = 0; b < separating.size(); ++b) {
-    if (separating[b]) kept.push_back(floor.bridges[b]);
+  std::vector<Bridge> bridges = FindBridges(floor, map_options.snap_radius_m, options.max_gap_m);
+  if (const bool few = bridges.size() * kFootprintsPerBridge < floor.footprints.size(); few) {
+    if (Expected<void> ok = BuildPlanarMap(floor, map_options); !ok || bridges.empty()) return ok;
+    Floor about = FloorAbout(bridges, floor);
+    if (Expected<void> ok = BuildPlanarMap(about, map_options); !ok) return ok;
+    bridges = Kept(bridges, Slivers(about, options.max_gap_m).Separating());
+    if (bridges.empty()) return {};
+    floor.bridges = std::move(bridges);
+    return BuildPlanarMap(floor, map_options);
   }
-  floor.bridges = std::move(kept);
-  return BuildPlanarMap(floor, map_options);
+  floor.bridges = std::move(bridges);
+  if (Expected<void> ok = BuildPlanarMap(floor, map_options); !ok || floor.bridges.empty()) return ok;
+  const size_t tried = floor.bridges.size();
+  floor.bridges = Kept(floor.bridges, Slivers(floor, options.max_gap_m).Separating());
+  return floor.bridges.size() == tried ? Expected<void>() : BuildPlanarMap(floor, map_options);
 }
 
 void ReportBridges(const PlanIr& plan, const FloorIr& floors, DiagnosticSink& sink) {

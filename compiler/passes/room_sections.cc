@@ -9,7 +9,7 @@
 #include <numeric>
 #include <optional>
 
-#include "compiler/passes/for_each_job.h"
+#include "compiler/geometry/for_each_job.h"
 #include "compiler/passes/polygon.h"
 
 namespace plumb::compiler {

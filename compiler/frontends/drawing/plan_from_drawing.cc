@@ -6,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "compiler/frontends/drawing/face_cover.h"
 #include "compiler/frontends/drawing/plane.h"
 #include "compiler/frontends/drawing/room_names.h"
 #include "compiler/frontends/drawing/wall_report.h"
@@ -240,25 +241,17 @@ class StoreyBuilder {
   bool AddLeftovers(const Outline& outline) {
     std::vector<MapLine> lines;
     for (const Side& s : outline.sides()) lines.push_back({s.a, s.b, s.source});
-    std::vector<Eigen::AlignedBox2d> boxes;
     for (const WallRun& run : runs_) {
       const auto corners = run.Corners();
       for (size_t k = 0; k < corners.size(); ++k) lines.push_back({corners[k], corners[(k + 1) % corners.size()], run.source});
-      boxes.push_back(BoxOf(corners));
     }
     const std::optional<LineMap> map = LineMap::Build(lines, options_.mass.join_m, options_.mass.max_vertices);
     if (!map) return false;
-    const BoxTree<2> tree(std::move(boxes));
-    std::vector<bool> solid(map->num_faces(), false);
-    for (uint32_t f = 1; f < map->num_faces(); ++f) {
-      const std::optional<Eigen::Vector2d> p = map->PointIn(f);
-      if (!p) continue;
-      bool in_run = false;
-      tree.ForEachIn(Eigen::AlignedBox2d(*p), [&](uint32_t r) { in_run = in_run || runs_[r].Holds(*p, 0); });
-      solid[f] = in_run || outline.InWall(*p);
-      if (solid[f] && !in_run) AddLeftover(*map, f);
+    const std::vector<FaceCover> covers = CoverOfFaces(*map, runs_, outline);
+    for (uint32_t f = 1; f < covers.size(); ++f) {
+      if (covers[f] == FaceCover::kWall) AddLeftover(*map, f);
     }
-    NameFaces(*map, solid);
+    NameFaces(*map, covers);
     return true;
   }
 
@@ -303,12 +296,12 @@ class StoreyBuilder {
     plan_.spaces.push_back(std::move(space));
   }
 
-  void NameFaces(const LineMap& map, const std::vector<bool>& solid) {
+  void NameFaces(const LineMap& map, const std::vector<FaceCover>& covers) {
     std::map<uint32_t, std::vector<const DrawnText*>> by_face;
     for (const DrawnText& text : drawing_.texts) {
       const uint32_t face = map.FaceAt(text.at);
       const bool drawn = std::any_of(drawing_.spaces.begin(), drawing_.spaces.end(), [&](const DrawnSpace& s) { return Contains(s.outline, text.at); });
-      if (face != 0 && !solid[face] && !drawn) by_face[face].push_back(&text);
+      if (face != 0 && covers[face] == FaceCover::kFree && !drawn) by_face[face].push_back(&text);
     }
     for (const auto& [face, texts] : by_face) {
       const std::string name = RoomName(texts);

@@ -14,6 +14,7 @@
 #include "compiler/frontends/drawing/plane.h"
 #include "compiler/frontends/drawing/single_lines.h"
 #include "compiler/geometry/box_tree.h"
+#include "compiler/geometry/for_each_job.h"
 #include "schema/polygon.h"
 
 namespace plumb::compiler {
@@ -25,6 +26,7 @@ constexpr double kAround_m = 0.1;    // ... to the walls around it
 constexpr double kSampled_m = 0.4;  // between points where a face is measured
 constexpr int kMaxSamples = 40;     // on one side of it
 constexpr double kOff_m = 1e-4;  // from a line into the face beside it
+constexpr size_t kMinParallel = 1 << 15;  // half-edges to measure
 
 struct WeightedLength {
   double value_m, weight_m;
@@ -94,21 +96,29 @@ class MassFinder {
     return closings.empty() || Build();
   }
 
-  // How far the other side of the face is across from points of its boundary.
-  std::vector<std::vector<WeightedLength>> MeasureFaces() const {
-    std::vector<std::vector<WeightedLength>> out(Map().num_faces());
+  // How far the other side of the half-edge's face is across from points of it.
+  std::vector<WeightedLength> Widths(uint32_t h) const {
+    const uint32_t face = Map().FaceOf(h);
+    if (face == 0 || Map().FaceOf(h ^ 1u) == face) return {};
     const double far_m = 2 * options_.max_thickness_m;
-    for (uint32_t h = 0; h < Map().num_half_edges(); ++h) {
-      const uint32_t face = Map().FaceOf(h);
-      if (face == 0 || Map().FaceOf(h ^ 1u) == face) continue;
-      const Eigen::Vector2d a = Map().FromPoint(h), d = Map().ToPoint(h) - a, n = Perp(d).normalized();
-      const auto other = [&](uint32_t e) { return e != h / 2; };
-      // Long sides more often: a wall with pillars along one side is as thick as it is between them.
-      const int samples = std::clamp(static_cast<int>(d.norm() / kSampled_m), 3, kMaxSamples);
-      for (int i = 0; i < samples; ++i) {
-        const std::optional<RayHit> hit = Map().Cast(a + (i + 0.5) / samples * d + kOff_m * n, n, far_m, other);
-        out[face].push_back({hit ? hit->t_m : far_m, d.norm() / samples});
-      }
+    const Eigen::Vector2d a = Map().FromPoint(h), d = Map().ToPoint(h) - a, n = Perp(d).normalized();
+    const auto other = [&](uint32_t e) { return e != h / 2; };
+    // Long sides more often: a wall with pillars along one side is as thick as it is between them.
+    std::vector<WeightedLength> out(static_cast<size_t>(std::clamp(static_cast<int>(d.norm() / kSampled_m), 3, kMaxSamples)));
+    const auto samples = static_cast<double>(out.size());
+    for (size_t i = 0; i < out.size(); ++i) {
+      const std::optional<RayHit> hit = Map().Cast(a + (static_cast<double>(i) + 0.5) / samples * d + kOff_m * n, n, far_m, other);
+      out[i] = {hit ? hit->t_m : far_m, d.norm() / samples};
+    }
+    return out;
+  }
+
+  std::vector<std::vector<WeightedLength>> MeasureFaces() const {
+    std::vector<std::vector<WeightedLength>> widths(Map().num_half_edges()), out(Map().num_faces());
+    ForEachJob(widths.size(), kMinParallel, [&](size_t h) { widths[h] = Widths(static_cast<uint32_t>(h)); });
+    for (uint32_t h = 0; h < widths.size(); ++h) {
+      auto& of_face = out[Map().FaceOf(h)];
+      of_face.insert(of_face.end(), widths[h].begin(), widths[h].end());
     }
     return out;
   }

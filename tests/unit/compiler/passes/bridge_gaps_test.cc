@@ -64,6 +64,38 @@ TEST(BridgeGaps, SlitsThatKeepNothingApartStayAsDrawn) {
   EXPECT_EQ(plain.faces.size() + 2, floor.faces.size());  // one room more, and the sliver at the screen's end
 }
 
+TEST(BridgeGaps, FewGapsInALargePlanAreDecidedAsInASmallOne) {
+  for (const double gap : {0.0, 0.1}) {
+    Floor alone = Box(gap);
+    alone.footprints.push_back({FootprintKind::kColumn, kNoIndex, 4, true, {Rectangle({0.05, 1}, {0.45, 1.4})}});
+    alone.footprints.push_back({FootprintKind::kWall, 5, 5, true, {Rectangle({2, 0}, {2.1, 2.9})}});
+    alone.footprints.push_back({FootprintKind::kWall, 6, 6, true, {Rectangle({3, 0.5}, {3.1, 3})}});
+    Floor among = alone;
+    for (uint32_t i = 0; i < 1000; ++i) {  // columns in the yard, all in one face with the outside
+      const Eigen::Vector2d at(10 + i % 40, i / 40);
+      among.footprints.push_back({FootprintKind::kColumn, kNoIndex, 7 + i, true, {Rectangle(at, at + Eigen::Vector2d(0.3, 0.3))}});
+    }
+    ASSERT_LT(20 * FindBridges(among, 0.002, 0.2).size(), among.footprints.size()) << "enough of them to look about the gaps only";
+    ASSERT_TRUE(BridgeGaps({}, {}, alone));
+    ASSERT_TRUE(BridgeGaps({}, {}, among));
+    ASSERT_EQ(among.bridges.size(), alone.bridges.size()) << gap;
+    EXPECT_GT(among.bridges.size(), 0u);
+    for (size_t b = 0; b < alone.bridges.size(); ++b) {
+      EXPECT_EQ(among.bridges[b].from, alone.bridges[b].from);
+      EXPECT_EQ(among.bridges[b].to, alone.bridges[b].to);
+      EXPECT_EQ(among.bridges[b].footprint_a, alone.bridges[b].footprint_a);
+      EXPECT_EQ(among.bridges[b].footprint_b, alone.bridges[b].footprint_b);
+    }
+    EXPECT_EQ(FaceAt(among, {2.5, 2}), FaceAt(among, {3.5, 2}));
+    EXPECT_NE(FaceAt(among, {1, 2}), FaceAt(among, {2.5, 2}));
+  }
+  Floor open = Box(0.25);  // no gap at all that is narrow enough
+  for (uint32_t i = 0; i < 200; ++i) open.footprints.push_back({FootprintKind::kColumn, kNoIndex, 7 + i, true, {Rectangle({10.0 + i, 0}, {10.4 + i, 1})}});
+  ASSERT_TRUE(BridgeGaps({}, {}, open));
+  EXPECT_TRUE(open.bridges.empty());
+  EXPECT_EQ(FaceAt(open, {2, 1.5}), 0u);
+}
+
 TEST(BridgeGaps, PartsOfOneWallAreBridgedToo) {
   Floor floor = Box(0);
   floor.footprints[0].rings = {Rectangle({-0.2, -0.2}, {1, 0}), Rectangle({1.05, -0.2}, {4.2, 0})};

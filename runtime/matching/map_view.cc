@@ -7,8 +7,8 @@
 namespace plumb::runtime {
 namespace {
 
-constexpr double kKeyframeSpacing_m = 0.3;      // closer ones see the same from the same place: no new evidence
-constexpr double kKeyframeTurn_rad = 0.52;      // ... unless they look elsewhere
+constexpr double kKeyframeSpacing_m = 0.3;  // closer ones see the same from the same place: no new evidence
+constexpr double kKeyframeTurn_rad = 0.52;  // ... unless they look elsewhere
 constexpr double kOnSurface_m = 0.10;
 constexpr double kMinRange_m = 0.4;
 constexpr int kAzimuths = 120, kElevations = 6;

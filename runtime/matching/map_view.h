@@ -31,15 +31,15 @@ class RangeBackground {
 
 // Frame: the map's, shifted by center_m in x and y.
 struct MapView {
-  bool planar = false;  // as SGraph
+  bool planar = false;                                 // as SGraph
   Eigen::Vector2d center_m = Eigen::Vector2d::Zero();  // map frame: middle of the walls, weighted by length
   std::vector<MapWall> walls;
-  double wall_length_m = 0;                            // of all of them
-  double wall_sigma_m = 0.02;                          // of a wall that stands as planned: SigmaOfWalls()
+  double wall_length_m = 0;    // of all of them
+  double wall_sigma_m = 0.02;  // of a wall that stands as planned: SigmaOfWalls()
   std::optional<double> floor_z_m, ceiling_z_m;
-  Eigen::Vector2d start_m = Eigen::Vector2d::Zero();   // of the first keyframe's sensor, ...
-  double sensor_z_m = 0, lowest_z_m = 0;               // ... its height; height of the points (1st percentile)
-  std::vector<MapRay> rays;                            // every k-th is again spread over keyframes and directions
+  Eigen::Vector2d start_m = Eigen::Vector2d::Zero();  // of the first keyframe's sensor, ...
+  double sensor_z_m = 0, lowest_z_m = 0;              // ... its height; height of the points (1st percentile)
+  std::vector<MapRay> rays;                           // every k-th is again spread over keyframes and directions
   RangeBackground background{{}};
 };
 

@@ -89,8 +89,10 @@ std::vector<MapWall> UprightWalls(const SGraph& map) {
   std::stable_sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.wall.length_m > b.wall.length_m; });
   for (const Piece& piece : pieces) {
     const auto same = std::find_if(kept.begin(), kept.end(), [&](const Piece& k) { return AreOneWall(k.wall, piece.wall); });
-    if (same == kept.end()) kept.push_back(piece);
-    else Join(piece, *same);
+    if (same == kept.end())
+      kept.push_back(piece);
+    else
+      Join(piece, *same);
   }
   std::vector<MapWall> walls;
   for (const Piece& piece : kept) walls.push_back(piece.wall);

@@ -41,9 +41,8 @@ class PoseSearch {
       candidates = SortAndMerge(std::move(candidates));
     }
     candidates.resize(std::min(candidates.size(), static_cast<size_t>(kFinalistsPerKept * options.keep_hypotheses)));
-    oneapi::tbb::parallel_for(size_t{0}, candidates.size(), [&](size_t i) {
-      candidates[i].rays = JudgeRays(plan, map, candidates[i].fit.pose, options);
-    });
+    oneapi::tbb::parallel_for(size_t{0}, candidates.size(),
+                              [&](size_t i) { candidates[i].rays = JudgeRays(plan, map, candidates[i].fit.pose, options); });
     return SortAndMerge(std::move(candidates));
   }
 

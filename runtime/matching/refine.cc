@@ -9,19 +9,20 @@
 namespace plumb::runtime {
 namespace {
 
-constexpr double kToleranceSigmas = 3;                   // of MapView::wall_sigma_m; within: as planned
-constexpr double kFullVoteLength_m = 2.0;                // longer walls do not count more: each may deviate as a whole
+constexpr double kToleranceSigmas = 3;     // of MapView::wall_sigma_m; within: as planned
+constexpr double kMostCounted_m = 0.06;    // ... but the wider, the more planes agree by chance: these count for a place
+constexpr double kFullVoteLength_m = 2.0;  // longer walls do not count more: each may deviate as a whole
 constexpr double kMinFaceOverlap_m = 0.5;
 constexpr double kGroupWidthRatio = 2, kTruncationRatio = 4.0 / 3;  // of the tolerance
 constexpr double kDirectionWidth_rad = 0.26;
 constexpr double kMinMajority = 1.5, kMinMajorityMargin = 0.75;  // in walls
-constexpr double kContestedSigma_m = 0.2;                 // of a wall in a direction whose walls do not agree on the displacement
+constexpr double kContestedSigma_m = 0.2;                        // of a wall in a direction whose walls do not agree on the displacement
 constexpr size_t kMaxConsensusGroups = 24;
 
 // The pairs of one physical wall: they move together, so they vote once.
 struct WallGroup {
   std::vector<size_t> pairs;
-  double weight = 0;    // in walls: 1 from kFullVoteLength_m on
+  double weight = 0;  // in walls: 1 from kFullVoteLength_m on
   double overlap_m = 0;
   Eigen::Vector2d normal = Eigen::Vector2d::UnitX();  // of the first pair's face
 };
@@ -65,10 +66,7 @@ std::vector<WallGroup> GroupByWall(const PlanIndex& plan, const std::vector<Wall
 class WallProblem {
  public:
   WallProblem(const PlanIndex& plan, const MapView& map, const std::vector<WallPair>& pairs, const PlanarPose& pose)
-      : plan_(plan),
-        pairs_(pairs),
-        sigma_m_(map.wall_sigma_m),
-        groups_(GroupByWall(plan, pairs, pose, kGroupWidthRatio * tolerance_m())) {}
+      : plan_(plan), pairs_(pairs), sigma_m_(map.wall_sigma_m), groups_(GroupByWall(plan, pairs, pose, kGroupWidthRatio * tolerance_m())) {}
 
   // Of a wall as planned, and how far off it may stand.
   [[nodiscard]] double sigma_m() const { return sigma_m_; }
@@ -231,8 +229,10 @@ int CountPlanes(const PlanIndex& plan, const std::vector<double>& overlap_m) {
     if (overlap_m[k] <= 0) continue;
     const auto known =
         std::find_if(planes.begin(), planes.end(), [&](const auto& p) { return AreCoplanar(plan.faces()[p.first], plan.faces()[k]); });
-    if (known == planes.end()) planes.emplace_back(k, overlap_m[k]);
-    else known->second += overlap_m[k];
+    if (known == planes.end())
+      planes.emplace_back(k, overlap_m[k]);
+    else
+      known->second += overlap_m[k];
   }
   return static_cast<int>(std::count_if(planes.begin(), planes.end(), [](const auto& p) { return p.second >= kMinFaceOverlap_m; }));
 }
@@ -244,8 +244,10 @@ void Assess(const PlanIndex& plan, const MapView& map, const WallProblem& proble
   Eigen::Vector4d g = Eigen::Vector4d::Zero(), unused = Eigen::Vector4d::Zero();
   std::vector<double> overlap_m(plan.faces().size(), 0.0);
   double consistent_m = 0;
+  const double tolerance_m = problem.tolerance_m(), counted_m = std::min(tolerance_m, kMostCounted_m);
   for (size_t i = 0; i < groups.size(); ++i) {
-    if (problem.SquaredDistance(groups[i], fit.pose) > problem.tolerance_m() * problem.tolerance_m()) continue;
+    const double squared_m2 = problem.SquaredDistance(groups[i], fit.pose);
+    if (squared_m2 > tolerance_m * tolerance_m) continue;
     const double weight = groups[i].weight / (problem.sigma_m() * problem.sigma_m());
     problem.AddNormalEquations(groups[i], fit.pose, weight, H, g);
     if (clear[i]) {
@@ -253,6 +255,7 @@ void Assess(const PlanIndex& plan, const MapView& map, const WallProblem& proble
     } else {
       problem.AddNormalEquations(groups[i], fit.pose, groups[i].weight / (kContestedSigma_m * kContestedSigma_m), H_contested, unused);
     }
+    if (squared_m2 > counted_m * counted_m) continue;
     for (size_t k : groups[i].pairs) {
       overlap_m[problem.pair(k).face] += problem.pair(k).overlap_m;
       consistent_m += problem.pair(k).overlap_m;

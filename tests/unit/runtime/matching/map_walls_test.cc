@@ -53,9 +53,7 @@ TEST(UprightWalls, JoinPiecesApartByLessThanTheirPointsSpread) {
   EXPECT_LT(walls[0].end.y(), 0.06);
 }
 
-TEST(UprightWalls, KeepWhatPreciseRangesTellApart) {
-  EXPECT_EQ(WallsOf({{0, 4, 0, 0.01}, {2, 5, 0.05, 0.01}}).size(), 2u);
-}
+TEST(UprightWalls, KeepWhatPreciseRangesTellApart) { EXPECT_EQ(WallsOf({{0, 4, 0, 0.01}, {2, 5, 0.05, 0.01}}).size(), 2u); }
 
 TEST(UprightWalls, KeepBothFacesOfAThinWallAndPiecesBesideEachOther) {
   EXPECT_EQ(WallsOf({{0, 4, 0, 0.03, true}, {0, 4, 0.05, 0.03, false}}).size(), 2u);

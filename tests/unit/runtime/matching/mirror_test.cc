@@ -108,9 +108,10 @@ TEST(IsOwnMirrorImage, IsFalseWhereOnlyTheRoomSeenIsSymmetric) {
   PlanarPose mirrored;
   mirrored.t_m = {-6, 0};
   const PlanIndex index(plan);
-  EXPECT_FALSE(IsOwnMirrorImage(index, SeenFrom(index, [](const PlanFace& f) {
-                                  return std::max(f.start.x(), f.end.x()) < 6 && std::max(f.start.y(), f.end.y()) < 4;
-                                }), mirrored));
+  EXPECT_FALSE(IsOwnMirrorImage(
+      index,
+      SeenFrom(index, [](const PlanFace& f) { return std::max(f.start.x(), f.end.x()) < 6 && std::max(f.start.y(), f.end.y()) < 4; }),
+      mirrored));
 }
 
 }  // namespace

@@ -9,7 +9,7 @@ namespace plumb::runtime {
 namespace {
 
 constexpr double kSamePlane_m = 0.05, kSameDoor_m = 0.2, kSameNormal = 0.999;
-constexpr double kOwnMirrorRatio = 0.9, kSeenMirrorRatio = 0.97;  // of the length of all walls, and of those that the map lies on
+constexpr double kOwnMirrorRatio = 0.95, kSeenMirrorRatio = 0.97;  // of the length of all walls, and of those that the map lies on
 constexpr double kNearWall_m = 1.0;
 
 // The reflection of the plan that a map at `pose` in it and at `mirrored_pose` in its mirror image amounts to.

@@ -43,7 +43,8 @@ std::vector<Piece> UprightPieces(const SGraph& map) {
     w.z_min_m = s.z_min_m;
     w.z_max_m = s.z_max_m;
     const PlaneStats stats = StatsOf(map, s);
-    if (stats.count() > 0) w.spread_m = FitPlane(stats, s.plane.n).rms_m;
+    // The points of a planar laser lie in one level plane, and fit that best.
+    if (!map.planar && stats.count() > 0) w.spread_m = FitPlane(stats, s.plane.n).rms_m;
     pieces.push_back({w, stats});
   }
   return pieces;
@@ -51,7 +52,7 @@ std::vector<Piece> UprightPieces(const SGraph& map) {
 
 // One before the other, apart by no more than their points spread.
 bool AreOneWall(const MapWall& longer, const MapWall& other) {
-  if (longer.normal.dot(other.normal) < kSameNormal) return false;
+  if (longer.spread_m <= 0 || other.spread_m <= 0 || longer.normal.dot(other.normal) < kSameNormal) return false;
   const Eigen::Vector2d p = other.start - longer.start, q = other.end - longer.start;
   const double up = longer.along.dot(p), uq = longer.along.dot(q);
   const double lo = std::max(0.0, std::min(up, uq)), hi = std::min(longer.length_m, std::max(up, uq));

@@ -13,7 +13,7 @@ struct MapWall {
   Eigen::Vector2d start = Eigen::Vector2d::Zero(), end = Eigen::Vector2d::Zero();
   Eigen::Vector2d normal = Eigen::Vector2d::UnitX(), along = Eigen::Vector2d::UnitY();
   double length_m = 0, z_min_m = 0, z_max_m = 0;
-  double spread_m = 0;  // rms distance of its points from its plane; 0: not known
+  double spread_m = 0;  // rms distance of its points from its plane; 0: not known, as in maps of planar lasers
 };
 
 // Map frame, at least 0.4 m long. Rough ranges break one wall into surfaces one before the other, apart by less than their points spread:

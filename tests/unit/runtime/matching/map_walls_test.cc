@@ -55,6 +55,18 @@ TEST(UprightWalls, JoinPiecesApartByLessThanTheirPointsSpread) {
 
 TEST(UprightWalls, KeepWhatPreciseRangesTellApart) { EXPECT_EQ(WallsOf({{0, 4, 0, 0.01}, {2, 5, 0.05, 0.01}}).size(), 2u); }
 
+TEST(UprightWalls, OfAPlanarLaserSayNothingOfTheirSpread) {
+  SGraph map;
+  map.planar = true;
+  map.keyframes.emplace_back();
+  Add({0, 4, 0, 0.03}, map);
+  Add({2, 5, 0.02, 0.03}, map);
+  const std::vector<MapWall> walls = UprightWalls(map);
+  ASSERT_EQ(walls.size(), 2u);
+  for (const MapWall& wall : walls) EXPECT_EQ(wall.spread_m, 0);
+  EXPECT_NEAR(SigmaOfWalls(walls), 0.02, 1e-3);
+}
+
 TEST(UprightWalls, KeepBothFacesOfAThinWallAndPiecesBesideEachOther) {
   EXPECT_EQ(WallsOf({{0, 4, 0, 0.03, true}, {0, 4, 0.05, 0.03, false}}).size(), 2u);
   EXPECT_EQ(WallsOf({{0, 4, 0, 0.03}, {3.5, 7, 0.02, 0.03}}).size(), 2u);

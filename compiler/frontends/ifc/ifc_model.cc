@@ -36,7 +36,7 @@ IfcModel::IfcModel(StepFile file, DiagnosticSink& diagnostics) : file_(std::move
   constexpr size_t kMinSteps = 1000000, kStepsPerByte = 4;
   is_refused_ = !file_.is_whole();
   steps_left_ = kMinSteps + kStepsPerByte * file_.text_size();
-  constexpr size_t kMinSurfaceSteps = 100000000, kSurfaceStepsPerByte = 100;
+  constexpr size_t kMinSurfaceSteps = 100000000, kSurfaceStepsPerByte = 60;
   surface_steps_left_ = kMinSurfaceSteps + kSurfaceStepsPerByte * file_.text_size();
   types_.assign(file_.type_count(), IfcType::kUnknown);
   file_types_.assign(std::size(kTypeNames), kNoFileType);

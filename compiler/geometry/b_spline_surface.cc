@@ -88,6 +88,17 @@ Vector2d BSplineUnroller::Periods() const {
   return range.cwiseProduct(scale_);
 }
 
+bool BSplineUnroller::IsPole(const Vector3d& p) const {
+  const size_t n = nodes_v_.size(), last = nodes_.size() - n;
+  const auto all_here = [&](size_t first, size_t step, size_t count) {
+    for (size_t k = 0; k < count; ++k) {
+      if ((nodes_[first + k * step] - p).norm() > kSeam_m) return false;
+    }
+    return true;
+  };
+  return all_here(0, 1, n) || all_here(last, 1, n) || all_here(0, n, nodes_u_.size()) || all_here(n - 1, n, nodes_u_.size());
+}
+
 // Of the longest line of nodes with this distance from one to the next in `nodes_`, lines beginning `next` apart.
 double BSplineUnroller::LengthOver(size_t step, size_t next) const {
   const size_t in_line = (step == 1 ? nodes_v_ : nodes_u_).size(), lines = nodes_.size() / in_line;

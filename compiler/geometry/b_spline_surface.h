@@ -30,6 +30,8 @@ class BSplineUnroller {
   [[nodiscard]] Eigen::Vector2d Flat(const Eigen::Vector3d& p) const;
   // After how much it comes back to where it began, 0 where it does not.
   [[nodiscard]] Eigen::Vector2d Periods() const;
+  // Whether a whole edge of the surface is this one point.
+  [[nodiscard]] bool IsPole(const Eigen::Vector3d& p) const;
 
  private:
   [[nodiscard]] double LengthOver(size_t step, size_t next) const;

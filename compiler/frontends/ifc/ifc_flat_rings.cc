@@ -116,8 +116,10 @@ Vector2d WholePeriods(const Vector2d& periods, const Vector2d& from, const Vecto
 }
 
 bool PlaceRings(const IfcModel& model, const Vector2d& periods, std::vector<FlatRing>& rings) {
-  if (std::any_of(rings.begin(), rings.end(), [](const FlatRing& ring) { return !ring.turn.isZero(); }))
-    return JoinRound(model, periods, rings);
+  const auto goes_round = [](const FlatRing& ring) { return !ring.turn.isZero(); };
+  const auto count = std::count_if(rings.begin(), rings.end(), goes_round);
+  const bool from_pole = count == 1 && goes_round(rings[0]) && rings[0].has_pole;
+  if (count > 0 && !from_pole) return JoinRound(model, periods, rings);
   for (size_t r = 1; r < rings.size(); ++r)
     Move(WholePeriods(periods, BoxOf(rings[r].flat).center(), BoxOf(rings[0].flat).center()), rings[r]);
   return true;

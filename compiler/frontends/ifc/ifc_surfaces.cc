@@ -33,6 +33,7 @@ struct RoundSurface {
     return {radius_m * std::atan2(q.y(), q.x()), q.z()};
   }
   [[nodiscard]] Vector2d Periods() const { return {kTwoPi * radius_m, 0}; }
+  [[nodiscard]] bool IsPole(const Vector3d& p) const { return (T_surface_file * p).head<2>().norm() < kSeam_m; }
 };
 
 // Length along the directrix and way along the extrusion.
@@ -57,6 +58,7 @@ class ExtrudedSurface {
     return {along_m, direction_.dot(p)};
   }
   [[nodiscard]] Vector2d Periods() const { return {Across(points_.front() - points_.back()).norm() < kSeam_m ? along_m_.back() : 0, 0}; }
+  [[nodiscard]] static bool IsPole(const Vector3d&) { return false; }
 
  private:
   [[nodiscard]] Vector3d Across(const Vector3d& v) const { return v - direction_.dot(v) * direction_; }
@@ -76,6 +78,7 @@ UnrolledFace Flatten(const IfcModel& model, const Surface& surface, const std::v
     for (const Vector3d& p : ring) {
       const Vector2d q = surface.Flat(p);
       flat.flat.push_back(flat.flat.empty() ? q : Vector2d(q + WholePeriods(periods, q, flat.flat.back())));
+      flat.has_pole |= surface.IsPole(p);
     }
     if (!flat.flat.empty()) flat.turn = WholePeriods(periods, flat.flat.front(), flat.flat.back());
     flat_rings.push_back(std::move(flat));

@@ -68,6 +68,15 @@ TEST(BSplineUnroller, FindsParametersAndPeriod) {
   for (const double u : {0.2, 1.7, 3.1}) EXPECT_LT((unroller.Flat(cylinder.At(u, 0.4)) - Vector2d(u / 4 * turn, 1.2)).norm(), 1e-6);
 }
 
+TEST(BSplineUnroller, KnowsItsPoles) {
+  BSplineSurface cone = Cylinder();
+  for (Vector4d& p : cone.columns[1].points) p.head<2>().setZero();
+  const BSplineUnroller unroller(cone);
+  EXPECT_TRUE(unroller.IsPole({0, 0, 3}));
+  EXPECT_FALSE(unroller.IsPole({2, 0, 0}));
+  EXPECT_FALSE(BSplineUnroller(Cylinder()).IsPole({2, 0, 0}));
+}
+
 // The nodes are fewer than the spans: from the nearest one the point is found all the same.
 TEST(BSplineUnroller, FindsParametersOnALargeSheet) {
   const BSplineSurface sheet = Sheet(60, 300, 3);

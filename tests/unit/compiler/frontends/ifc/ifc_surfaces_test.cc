@@ -320,6 +320,26 @@ TEST_F(CylinderTest, OneRingAllRoundBoundsNothing) {
   EXPECT_TRUE(Unroll({Round(0, 0, true), Round(0, 1, true), Round(0, 2, false)}).rings.empty());
 }
 
+TEST_F(SurfaceReaderTest, AConeIsAFanAboutItsApex) {
+  Open(
+      "#10=IFCSURFACEOFREVOLUTION(#11,#15,#16);\n#11=IFCARBITRARYOPENPROFILEDEF(.CURVE.,$,#12);\n#12=IFCPOLYLINE((#13,#14));\n"
+      "#13=IFCCARTESIANPOINT((1.,0.,0.));\n#14=IFCCARTESIANPOINT((0.,2.,0.));\n#15=IFCAXIS2PLACEMENT3D(#17,#18,#19);\n"
+      "#16=IFCAXIS1PLACEMENT(#17,#20);\n#17=IFCCARTESIANPOINT((0.,0.,0.));\n#18=IFCDIRECTION((0.,-1.,0.));\n"
+      "#19=IFCDIRECTION((1.,0.,0.));\n#20=IFCDIRECTION((0.,1.,0.));");
+  Ring3 ring;  // round the rim, up the seam to the apex and down again
+  for (int k = 0; k <= 48; ++k) ring.emplace_back(std::cos(2 * kPi * (k % 48) / 48), std::sin(2 * kPi * (k % 48) / 48), 0);
+  ring.emplace_back(0, 0, 2);
+  const UnrolledFace face = SurfaceReader(*model_, *placements_, *curves_, options_.chord_tolerance_m).Unroll(Get(10), {ring});
+  ASSERT_EQ(face.rings.size(), 1u);
+  EXPECT_TRUE(face.is_ruled);
+  const Triangulation2 result = TriangulatePolygon(face.rings);
+  EXPECT_EQ(result.triangles.size(), 48u);
+  for (const Eigen::Vector3i& t : result.triangles) EXPECT_EQ(t.maxCoeff(), 49);
+  ring.pop_back();
+  ring.pop_back();
+  EXPECT_TRUE(SurfaceReader(*model_, *placements_, *curves_, options_.chord_tolerance_m).Unroll(Get(10), {ring}).rings.empty());
+}
+
 // A column between two circles, its side without a seam edge, with or without its upper circle.
 std::string SeamlessColumn(bool whole) {
   return fmt::format(

@@ -1,6 +1,7 @@
 #include "compiler/geometry/b_spline.h"
 
 #include <algorithm>
+#include <array>
 
 namespace plumb::compiler {
 namespace {
@@ -26,19 +27,27 @@ int StepsOver(const BSpline& spline, double low, double high, double tolerance_m
 
 }  // namespace
 
-Vector4d BSpline::HomogeneousAt(double u) const {
-  size_t span = degree;
-  while (span + 1 < points.size() && u >= knots[span + 1]) ++span;
-  std::vector<Vector4d> d(points.begin() + static_cast<std::ptrdiff_t>(span - degree),
-                          points.begin() + static_cast<std::ptrdiff_t>(span + 1));
+size_t BSpline::SpanOf(double u) const {
+  const auto begin = knots.begin() + static_cast<std::ptrdiff_t>(degree), end = knots.begin() + static_cast<std::ptrdiff_t>(points.size());
+  return degree + static_cast<size_t>(std::upper_bound(begin + 1, end, u) - begin) - 1;
+}
+
+Vector4d BSpline::Blend(double u, size_t span, std::span<Vector4d> controls) const {
   for (size_t r = 1; r <= degree; ++r) {
     for (size_t j = degree; j >= r; --j) {
       const double low = knots[j + span - degree], high = knots[j + 1 + span - r];
       const double t = high > low ? (u - low) / (high - low) : 0;
-      d[j] = (1 - t) * d[j - 1] + t * d[j];
+      controls[j] = (1 - t) * controls[j - 1] + t * controls[j];
     }
   }
-  return d[degree];
+  return controls[degree];
+}
+
+Vector4d BSpline::HomogeneousAt(double u) const {
+  const size_t span = SpanOf(u);
+  std::array<Vector4d, kMaxSplineDegree + 1> controls;
+  std::copy_n(points.begin() + static_cast<std::ptrdiff_t>(span - degree), degree + 1, controls.begin());
+  return Blend(u, span, controls);
 }
 
 Vector3d BSpline::At(double u) const {

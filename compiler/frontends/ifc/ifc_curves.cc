@@ -125,9 +125,7 @@ CurvePoints CurveReader::Read(const IfcInstance& curve, int depth) const {
   }
   if (!model_.Spend(1, curve.index)) return out;
   switch (curve.type) {
-    case IfcType::kIfcPolyline:
-      out.points = Points(curve[attribute::kPolylinePoints], curve.index);
-      return out;
+    case IfcType::kIfcPolyline: out.points = Points(curve[attribute::kPolylinePoints], curve.index); return out;
     case IfcType::kIfcIndexedPolyCurve: return Indexed(curve);
     case IfcType::kIfcCompositeCurve:
     case IfcType::kIfc2DCompositeCurve:  // IFC2X
@@ -297,7 +295,6 @@ CurvePoints CurveReader::Indexed(const IfcInstance& curve) const {
 }
 
 CurvePoints CurveReader::Spline(const IfcInstance& curve, const CurveTrim& a, const CurveTrim& b) const {
-  constexpr int64_t kMaxDegree = 16;
   const auto degree = curve[attribute::kSplineDegree].Integer().value_or(0);
   BSpline spline;
   for (const Vector3d& p : Points(curve[attribute::kSplinePoints], curve.index)) spline.points.push_back(p.homogeneous());
@@ -305,7 +302,7 @@ CurvePoints CurveReader::Spline(const IfcInstance& curve, const CurveTrim& a, co
     const std::vector<double> weights = Numbers(curve[attribute::kSplineWeights]);
     for (size_t i = 0; i < std::min(weights.size(), spline.points.size()); ++i) spline.points[i] *= weights[i];
   }
-  if (degree >= 1 && degree <= kMaxDegree && spline.points.size() > static_cast<size_t>(degree)) {
+  if (degree >= 1 && degree <= static_cast<int64_t>(kMaxSplineDegree) && spline.points.size() > static_cast<size_t>(degree)) {
     spline.degree = static_cast<size_t>(degree);
     spline.knots = ExpandKnots(Numbers(curve[attribute::kSplineKnots]), Numbers(curve[attribute::kSplineMultiplicities]), spline.degree,
                                spline.points.size());

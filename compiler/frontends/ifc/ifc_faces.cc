@@ -66,17 +66,15 @@ Ring3 FaceReader::EdgeLoop(const IfcInstance& loop) const {
 // Triangles of the unrolled face connect points across the surface, not through it.
 bool FaceReader::AppendCurvedFace(const IfcInstance& surface, const std::vector<Ring3>& rings, Solid& solid) const {
   const UnrolledFace flat = surfaces_.Unroll(surface, rings);
-  if (!flat.is_ruled) {
+  const Triangulation2 result = TriangulatePolygon(flat.rings);
+  const bool is_triangulated = !result.triangles.empty() && result.points.size() == flat.points.size();
+  if (!is_triangulated || !flat.is_ruled) {
     model_.Emit(DiagnosticKind::kSimplifiedGeometry, surface.index,
                 fmt::format("the curved surface {} is replaced by flat triangles between its edges", model_.Label(surface.index)));
   }
-  if (flat.rings.empty()) return false;
-  const Triangulation2 result = TriangulatePolygon(flat.rings);
-  size_t points = 0;
-  for (const Ring3& ring : rings) points += ring.size();
-  if (result.triangles.empty() || result.points.size() != points) return false;
+  if (!is_triangulated) return false;
   const int base = static_cast<int>(solid.vertices.size());
-  for (const Ring3& ring : rings) solid.vertices.insert(solid.vertices.end(), ring.begin(), ring.end());
+  solid.vertices.insert(solid.vertices.end(), flat.points.begin(), flat.points.end());
   const bool turned = SignedArea(flat.rings[0]) < 0;
   for (const Eigen::Vector3i& t : result.triangles) {
     solid.triangles.emplace_back(base + t[0], base + t[turned ? 2 : 1], base + t[turned ? 1 : 2]);

@@ -11,7 +11,11 @@ namespace plumb::compiler {
 class FaceReader {
  public:
   FaceReader(const IfcModel& model, const PlacementReader& placements, const CurveReader& curves, const IfcOptions& options)
-      : model_(model), placements_(placements), curves_(curves), surfaces_(model, placements, curves), options_(options) {}
+      : model_(model),
+        placements_(placements),
+        curves_(curves),
+        surfaces_(model, placements, curves, options.chord_tolerance_m),
+        options_(options) {}
 
   // IfcClosedShell, IfcOpenShell, IfcConnectedFaceSet: welded, normals outward if it is closed.
   [[nodiscard]] Solid Shell(const IfcInstance& shell) const;

@@ -36,6 +36,8 @@ IfcModel::IfcModel(StepFile file, DiagnosticSink& diagnostics) : file_(std::move
   constexpr size_t kMinSteps = 1000000, kStepsPerByte = 4;
   is_refused_ = !file_.is_whole();
   steps_left_ = kMinSteps + kStepsPerByte * file_.text_size();
+  constexpr size_t kMinSurfaceSteps = 100000000, kSurfaceStepsPerByte = 60;
+  surface_steps_left_ = kMinSurfaceSteps + kSurfaceStepsPerByte * file_.text_size();
   types_.assign(file_.type_count(), IfcType::kUnknown);
   file_types_.assign(std::size(kTypeNames), kNoFileType);
   for (size_t t = 0; t < file_.type_count(); ++t) {
@@ -143,6 +145,12 @@ bool IfcModel::Spend(size_t steps, uint32_t index) const {
         fmt::format("the shapes of the file unfold out of all proportion to its {} bytes, {} among them", file_.text_size(), Label(index)));
   }
   return false;
+}
+
+bool IfcModel::SpendOnSurface(size_t steps) const {
+  if (steps > surface_steps_left_) return false;
+  surface_steps_left_ -= steps;
+  return true;
 }
 
 void IfcModel::EmitAt(DiagnosticKind kind, SourceLocation location, std::string message, std::string hint) const {

@@ -78,6 +78,9 @@ class IfcModel {
   // Counts steps of reading shapes. A small file can share its parts so that they unfold without bound: false, with a PlanTooComplex
   // diagnostic about `index`, once the steps are out of all proportion to the file.
   [[nodiscard]] bool Spend(size_t steps, uint32_t index) const;
+  // Counts steps of following curved surfaces, each about a nanosecond. False: what is left, in proportion to the file, is not enough;
+  // nothing is counted then, and the surface is to be simplified.
+  [[nodiscard]] bool SpendOnSurface(size_t steps) const;
   [[nodiscard]] DiagnosticSink& diagnostics() const { return *diagnostics_; }
 
  private:
@@ -91,7 +94,7 @@ class IfcModel {
   std::vector<uint16_t> file_types_;        // the file's type number by IfcType, or kNoFileType
   mutable std::set<uint64_t> missing_ids_;  // reported already
   mutable std::map<DiagnosticKind, size_t> emitted_;
-  mutable size_t steps_left_;
+  mutable size_t steps_left_, surface_steps_left_;
   mutable bool is_refused_ = false, is_too_complex_ = false;
   double length_scale_ = 1, angle_scale_ = 1;
 };

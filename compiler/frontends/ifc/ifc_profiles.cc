@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -16,6 +17,7 @@ using Eigen::Vector3d;
 
 constexpr int kMaxDepth = 16;
 constexpr double kSamePoint_m = 1e-6;
+constexpr double kClosed_m = 1e-4;  // a centre line whose ends are closer goes round
 constexpr double kAlongStep = 0.9;  // cosine: an arc that goes on as the step at its end does
 
 Ring2 Rectangle(double x_m, double y_m) { return {{-x_m / 2, -y_m / 2}, {x_m / 2, -y_m / 2}, {x_m / 2, y_m / 2}, {-x_m / 2, y_m / 2}}; }
@@ -54,24 +56,50 @@ Vector2d NormalAtEnd(const Vector2d& end, const Vector2d& step, const std::vecto
   return normal;
 }
 
-// A band of constant width along an open line with at least two points, mitred at its bends, and the arcs of its sides.
-Profile Band(const Ring2& line, const std::vector<Arc>& arcs, double thickness_m) {
-  Ring2 left, right;
+// From the line to the left side of a band at a corner, in half widths.
+Vector2d Miter(const Vector2d& in, const Vector2d& out) {
+  const Vector2d n_in(-in.y(), in.x()), n_out(-out.y(), out.x()), miter = n_in + n_out;
+  return miter.norm() > 0.1 ? Vector2d(miter / std::max(0.25, miter.squaredNorm() / 2)) : n_in;
+}
+
+// Both sides of a band of constant width along a line with at least two points, mitred at its corners.
+std::array<Ring2, 2> SidesOf(const Ring2& line, const std::vector<Arc>& arcs, double thickness_m, bool is_closed) {
+  std::array<Ring2, 2> sides;
   const size_t n = line.size();
   for (size_t i = 0; i < n; ++i) {
-    const bool at_end = i == 0 || i + 1 == n;
-    const Vector2d in = (line[std::max<size_t>(i, 1)] - line[std::max<size_t>(i, 1) - 1]).normalized();
-    const Vector2d out = i + 1 < n ? (line[i + 1] - line[i]).normalized() : in;
-    const Vector2d n_in(-in.y(), in.x()), n_out(-out.y(), out.x());
-    Vector2d miter = n_in + n_out;
-    miter = miter.norm() > 0.1 ? Vector2d(miter / std::max(0.25, miter.squaredNorm() / 2)) : n_in;
-    if (at_end) miter = NormalAtEnd(line[i], in, arcs);
-    left.push_back(line[i] + miter * thickness_m / 2);
-    right.push_back(line[i] - miter * thickness_m / 2);
+    const bool at_end = !is_closed && (i == 0 || i + 1 == n);
+    const size_t from = at_end ? std::max<size_t>(i, 1) - 1 : (i + n - 1) % n;
+    const Vector2d in = (line[at_end ? from + 1 : i] - line[from]).normalized();
+    const Vector2d miter = at_end ? NormalAtEnd(line[i], in, arcs) : Miter(in, (line[(i + 1) % n] - line[i]).normalized());
+    sides[0].push_back(line[i] + miter * thickness_m / 2);
+    sides[1].push_back(line[i] - miter * thickness_m / 2);
   }
-  left.insert(left.end(), right.rbegin(), right.rend());
+  return sides;
+}
+
+// Whether the inner side of a closed line still goes round as the line does. One moved beyond the middle is turned inside out.
+bool GoesRound(const Ring2& inner, const Ring2& line) {
+  double along_m2 = 0;
+  for (size_t i = 0; i < line.size(); ++i) {
+    const size_t next = (i + 1) % line.size();
+    along_m2 += (inner[next] - inner[i]).dot(line[next] - line[i]);
+  }
+  return along_m2 > 0 && SignedArea(inner) * SignedArea(line) > 0;
+}
+
+// The band and the arcs of its sides. A closed line makes two rings; wider than what it goes round, it leaves no hole.
+Profile Band(const Ring2& line, const std::vector<Arc>& arcs, double thickness_m, bool is_closed) {
+  auto [left, right] = SidesOf(line, arcs, thickness_m, is_closed);
   Profile out;
-  out.area.push_back(std::move(left));
+  if (is_closed) {
+    const bool inner_is_left = SignedArea(line) > 0;
+    Ring2& inner = inner_is_left ? left : right;
+    out.area.push_back(std::move(inner_is_left ? right : left));
+    if (GoesRound(inner, line)) out.area.push_back(std::move(inner));
+  } else {
+    left.insert(left.end(), right.rbegin(), right.rend());
+    out.area.push_back(std::move(left));
+  }
   for (const Arc& arc : arcs) {
     for (const double offset_m : {-0.5 * thickness_m, 0.5 * thickness_m}) {
       if (arc.radius_m + offset_m > 0) out.arcs.push_back({arc.center, arc.radius_m + offset_m, arc.start_rad, arc.sweep_rad});
@@ -94,12 +122,7 @@ Profile ProfileReader::Read(const IfcInstance& profile, int depth) const {
   switch (profile.type) {
     case IfcType::kIfcArbitraryClosedProfileDef:
     case IfcType::kIfcArbitraryProfileDefWithVoids: return Arbitrary(profile);
-    case IfcType::kIfcCenterLineProfileDef: {
-      std::vector<Arc> arcs;
-      const Ring2 line = curves_.ReadRing(model_.Follow(profile[attribute::kProfileCurve]), &arcs);
-      const double thickness_m = model_.Length(profile, attribute::kCenterLineThickness);
-      return line.size() >= 2 && thickness_m > 0 ? Band(line, arcs, thickness_m) : out;
-    }
+    case IfcType::kIfcCenterLineProfileDef: return AlongCenterLine(profile);
     case IfcType::kIfcCompositeProfileDef:
       for (const StepValue item : profile[attribute::kCompositeProfiles].Items()) {
         const Profile part = Read(model_.Follow(item), depth + 1);
@@ -121,6 +144,18 @@ Profile ProfileReader::Read(const IfcInstance& profile, int depth) const {
     default: break;
   }
   return Parameterized(profile);
+}
+
+Profile ProfileReader::AlongCenterLine(const IfcInstance& profile) const {
+  const CurvePoints curve = curves_.Read(model_.Follow(profile[attribute::kProfileCurve]));
+  const double thickness_m = model_.Length(profile, attribute::kCenterLineThickness);
+  Ring2 line;
+  for (const Vector3d& p : curve.points) line.emplace_back(p.head<2>());
+  const bool is_closed = line.size() > 3 && (line.front() - line.back()).norm() <= kClosed_m;
+  if (is_closed) line.pop_back();
+  DropRepeatedPoints(kSamePoint_m, line);
+  if (line.size() < 2 || !(thickness_m > 0)) return {};
+  return Band(line, curve.arcs, thickness_m, is_closed && line.size() > 2);
 }
 
 Profile ProfileReader::Arbitrary(const IfcInstance& profile) const {

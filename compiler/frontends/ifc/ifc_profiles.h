@@ -18,13 +18,15 @@ class ProfileReader {
   ProfileReader(const IfcModel& model, const PlacementReader& placements, const CurveReader& curves, double chord_tolerance_m)
       : model_(model), placements_(placements), curves_(curves), chord_tolerance_m_(chord_tolerance_m) {}
 
-  // All closed profiles of the schema; fillets of rolled sections are left out, open centre lines are given their thickness.
+  // All closed profiles of the schema; fillets of rolled sections are left out, centre lines, open or closed, are given their
+  // thickness.
   // Empty, with an UnsupportedGeometry diagnostic, for others.
   [[nodiscard]] Profile Read(const IfcInstance& profile) const { return Read(profile, 0); }
 
  private:
   [[nodiscard]] Profile Read(const IfcInstance& profile, int depth) const;
   [[nodiscard]] Profile Parameterized(const IfcInstance& profile) const;
+  [[nodiscard]] Profile AlongCenterLine(const IfcInstance& profile) const;
   [[nodiscard]] Profile Arbitrary(const IfcInstance& profile) const;
   [[nodiscard]] Profile Round(double x_m, double y_m, double hollow_m) const;
   [[nodiscard]] Area RolledSection(const IfcInstance& profile) const;

@@ -109,6 +109,36 @@ TEST_F(ProfileReaderTest, CenterLineGetsItsThickness) {
   EXPECT_NEAR(AreaOf(profiles_->Read(Get(10))), 7 * 0.2, 1e-9);
 }
 
+TEST_F(ProfileReaderTest, AClosedCenterLineGoesAllRound) {
+  const std::string corners =
+      "#30=IFCPOLYLINE((#31,#32,#33,#34,#31));\n#31=IFCCARTESIANPOINT((0.,0.));\n#32=IFCCARTESIANPOINT((10.,0.));\n#33="
+      "IFCCARTESIANPOINT((10.,8.));\n#34=IFCCARTESIANPOINT((0.,8.));\n#35=IFCPOLYLINE((#31,#34,#33,#32,#31));\n"
+      "#40=IFCCIRCLE(#41,4.);\n#41=IFCAXIS2PLACEMENT2D(#31,$);\n";
+  Open(corners +
+       "#10=IFCCENTERLINEPROFILEDEF(.AREA.,$,#30,0.3);\n#11=IFCCENTERLINEPROFILEDEF(.AREA.,$,#35,0.3);\n"
+       "#12=IFCCENTERLINEPROFILEDEF(.AREA.,$,#40,0.3);\n#13=IFCCENTERLINEPROFILEDEF(.AREA.,$,#40,9.);\n");
+  for (const uint64_t id : {10u, 11u}) {
+    const Profile profile = profiles_->Read(Get(id));
+    ASSERT_EQ(profile.area.size(), 2u);
+    EXPECT_NEAR(std::abs(SignedArea(profile.area[0])), 10.3 * 8.3, 1e-9);
+    EXPECT_NEAR(std::abs(SignedArea(profile.area[1])), 9.7 * 7.7, 1e-9);
+  }
+  const Profile round = profiles_->Read(Get(12));
+  ASSERT_EQ(round.area.size(), 2u);
+  for (size_t side = 0; side < 2; ++side) {
+    for (const Eigen::Vector2d& p : round.area[side]) EXPECT_NEAR(p.norm(), side == 0 ? 4.15 : 3.85, 1e-4);
+  }
+  EXPECT_EQ(round.arcs.size(), 2u);
+  EXPECT_EQ(profiles_->Read(Get(13)).area.size(), 1u);
+}
+
+TEST_F(ProfileReaderTest, ACenterLineThereAndBackIsOpen) {
+  Open(
+      "#10=IFCCENTERLINEPROFILEDEF(.AREA.,$,#30,0.2);\n#30=IFCPOLYLINE((#31,#32,#31));\n#31=IFCCARTESIANPOINT((0.,0.));\n#32="
+      "IFCCARTESIANPOINT((4.,0.));");
+  EXPECT_NEAR(AreaOf(profiles_->Read(Get(10))), 4 * 0.2, 1e-9);
+}
+
 TEST_F(ProfileReaderTest, BadMeasuresAndUnknownTypesAreDiagnostics) {
   Open(
       "#10=IFCRECTANGLEPROFILEDEF(.AREA.,$,$,-4.,0.3);\n#11=IFCSOMEPROFILEDEF(.AREA.,$,$,1.);\n#12=IFCCOMPOSITEPROFILEDEF(.AREA.,$,(#12),$)"

@@ -190,7 +190,8 @@ TEST_F(SurfaceReaderTest, AHoleLiesInItsFaceBeyondTheSeam) {
     for (int k = 20; k >= 0; --k) add(k, high_m);
     return out;
   };
-  const UnrolledFace face = SurfaceReader(*model_, *placements_, *curves_).Unroll(Get(10), {ring(-0.8, 3.9, 0, 3), ring(3.3, 3.6, 1, 2)});
+  const UnrolledFace face = SurfaceReader(*model_, *placements_, *curves_, options_.chord_tolerance_m)
+                                .Unroll(Get(10), {ring(-0.8, 3.9, 0, 3), ring(3.3, 3.6, 1, 2)});
   ASSERT_EQ(face.rings.size(), 2u);
   EXPECT_NEAR(face.rings[0].front().x(), 2 * -0.8, 1e-9);
   EXPECT_NEAR(face.rings[1].front().x(), 2 * 3.3, 1e-9);
@@ -204,12 +205,167 @@ TEST_F(SurfaceReaderTest, WhatBulgesIsUnrolledButSaidNotToBeFollowed) {
       ".UNSPECIFIED.);\n#21=IFCCARTESIANPOINT((0.,0.,0.));\n#22=IFCCARTESIANPOINT((0.,0.,1.));\n#23=IFCCARTESIANPOINT((0.,0.,2.));\n"
       "#24=IFCCARTESIANPOINT((1.,0.,0.));\n#25=IFCCARTESIANPOINT((1.,1.,1.));\n#26=IFCCARTESIANPOINT((1.,0.,2.));\n"
       "#27=IFCCARTESIANPOINT((2.,0.,0.));\n#28=IFCCARTESIANPOINT((2.,0.,1.));\n#29=IFCCARTESIANPOINT((2.,0.,2.));");
-  const UnrolledFace face =
-      SurfaceReader(*model_, *placements_, *curves_).Unroll(Get(10), {{{0, 0, 0}, {2, 0, 0}, {2, 0, 2}, {0, 0, 2}, {1, 0.25, 1}}});
+  const UnrolledFace face = SurfaceReader(*model_, *placements_, *curves_, options_.chord_tolerance_m)
+                                .Unroll(Get(10), {{{0, 0, 0}, {2, 0, 0}, {2, 0, 2}, {0, 0, 2}, {1, 0.25, 1}}});
   ASSERT_EQ(face.rings.size(), 1u);
   EXPECT_FALSE(face.is_ruled);
   const Vector2d middle = 0.25 * (face.rings[0][0] + face.rings[0][1] + face.rings[0][2] + face.rings[0][3]);
   EXPECT_LT((face.rings[0][4] - middle).norm(), 1e-6);
+}
+
+// A sheet of 10 x 10 control points over [0, 0.9] x [0, 0.9], #10, waved along x.
+std::string Sheet(double height_m) {
+  std::string rows, points;
+  for (int i = 0; i < 10; ++i) {
+    rows += i > 0 ? ",(" : "(";
+    for (int j = 0; j < 10; ++j) {
+      const int id = 100 + 10 * i + j;
+      rows += fmt::format("{}#{}", j > 0 ? "," : "", id);
+      points += fmt::format("#{}=IFCCARTESIANPOINT(({:.3f},{:.3f},{:.6f}));\n", id, 0.1 * i, 0.1 * j, height_m * std::sin(i));
+    }
+    rows += ")";
+  }
+  return fmt::format(
+      "#10=IFCBSPLINESURFACEWITHKNOTS(3,3,({}),.UNSPECIFIED.,.F.,.F.,.F.,(4,1,1,1,1,1,1,4),(4,1,1,1,1,1,1,4),(0.,1.,2.,3.,4.,5.,6.,7.),(0.,"
+      "1.,2.,3.,4.,5.,6.,7.),.UNSPECIFIED.);\n{}",
+      rows, points);
+}
+
+// A loop of 40 points near the sheet's edges, not in a plane.
+Ring3 SheetBound() {
+  Ring3 ring;
+  for (int k = 0; k < 40; ++k) {
+    const double a = 2 * kPi * k / 40;
+    ring.emplace_back(0.45 + 0.4 * std::cos(a), 0.45 + 0.4 * std::sin(a), 0.02 * std::sin(3 * a));
+  }
+  return ring;
+}
+
+TEST_F(SurfaceReaderTest, SplinesBeyondTheBudgetAreSimplifiedAndTheFileIsNotRefused) {
+  Open(Sheet(0.02));
+  const SurfaceReader reader(*model_, *placements_, *curves_, options_.chord_tolerance_m);
+  size_t unrolled = 0;
+  for (int face = 0; face < 2000; ++face) unrolled += reader.Unroll(Get(10), {SheetBound()}).rings.empty() ? 0 : 1;
+  EXPECT_GT(unrolled, 100u);
+  EXPECT_LT(unrolled, 2000u);
+  EXPECT_TRUE(model_->Spend(900000, Get(10).index));
+  EXPECT_TRUE(diagnostics_.all().empty());
+}
+
+TEST_F(SurfaceReaderTest, APlaneFaceOfASplineIsFlattenedOntoItsPlane) {
+  Open(Sheet(0.0005));
+  Ring3 ring = SheetBound();
+  for (Vector3d& p : ring) p.z() = 0.0004;
+  const UnrolledFace face = SurfaceReader(*model_, *placements_, *curves_, options_.chord_tolerance_m).Unroll(Get(10), {ring});
+  ASSERT_EQ(face.rings.size(), 1u);
+  EXPECT_TRUE(face.is_ruled);
+  EXPECT_NEAR((face.rings[0][20] - face.rings[0][0]).norm(), 0.8, 1e-9);
+  Open(Sheet(0.1));
+  EXPECT_FALSE(SurfaceReader(*model_, *placements_, *curves_, options_.chord_tolerance_m).Unroll(Get(10), {ring}).is_ruled);
+}
+
+class CylinderTest : public IfcReaderTest {
+ protected:
+  // All round the cylinder of radius 2 about z.
+  static Ring3 Round(double start_rad, double z_m, bool forward) {
+    Ring3 out;
+    for (int k = 0; k < 48; ++k) {
+      const double a = start_rad + (forward ? 2 : -2) * kPi * k / 48;
+      out.emplace_back(2 * std::cos(a), 2 * std::sin(a), z_m + 0.2 * std::sin(a));
+    }
+    return out;
+  }
+  UnrolledFace Unroll(const std::vector<Ring3>& rings) {
+    Open("#10=IFCCYLINDRICALSURFACE(#11,2.);\n#11=IFCAXIS2PLACEMENT3D(#12,$,$);\n#12=IFCCARTESIANPOINT((0.,0.,0.));");
+    return SurfaceReader(*model_, *placements_, *curves_, options_.chord_tolerance_m).Unroll(Get(10), rings);
+  }
+  static Ring3 Window(double middle_rad) {
+    Ring3 out;
+    for (const auto& [da, z] : {std::pair(-0.25, 1.0), {0.25, 1.0}, {0.25, 2.0}, {-0.25, 2.0}})
+      out.emplace_back(2 * std::cos(middle_rad + da), 2 * std::sin(middle_rad + da), z);
+    return out;
+  }
+};
+
+TEST_F(CylinderTest, TwoRingsAllRoundBecomeOne) {
+  for (const bool opposed : {true, false}) {
+    for (const double start_rad : {0.0, 1.3, kPi}) {
+      const UnrolledFace face = Unroll({Round(0, 0, true), Round(start_rad, 3, !opposed)});
+      ASSERT_EQ(face.rings.size(), 1u);
+      EXPECT_EQ(face.rings[0].size(), 98u);
+      EXPECT_EQ(face.points.size(), 98u);
+      EXPECT_NEAR(SignedArea(face.rings[0]), 4 * kPi * 3, 0.1);
+    }
+  }
+}
+
+TEST_F(CylinderTest, TheSeamKeepsClearOfHoles) {
+  for (const double middle_rad : {0.0, 0.2, 1.0, kPi, 6.2}) {
+    const UnrolledFace face = Unroll({Round(0, 0, true), Window(middle_rad), Window(middle_rad + 2), Round(0, 3, false)});
+    ASSERT_EQ(face.rings.size(), 3u);
+    double area_m2 = 0;
+    const Triangulation2 result = TriangulatePolygon(face.rings);
+    for (const Eigen::Vector3i& t : result.triangles) {
+      const Ring2 corners = {result.points[static_cast<size_t>(t[0])], result.points[static_cast<size_t>(t[1])],
+                             result.points[static_cast<size_t>(t[2])]};
+      area_m2 += SignedArea(corners);
+    }
+    EXPECT_EQ(result.points.size(), face.points.size());
+    EXPECT_NEAR(area_m2, 4 * kPi * 3 - 2 * 1.0, 0.1) << middle_rad;
+  }
+}
+
+TEST_F(CylinderTest, OneRingAllRoundBoundsNothing) {
+  EXPECT_TRUE(Unroll({Round(0, 0, true)}).rings.empty());
+  EXPECT_TRUE(Unroll({Round(0, 0, true), Round(0, 1, true), Round(0, 2, false)}).rings.empty());
+}
+
+TEST_F(SurfaceReaderTest, AConeIsAFanAboutItsApex) {
+  Open(
+      "#10=IFCSURFACEOFREVOLUTION(#11,#15,#16);\n#11=IFCARBITRARYOPENPROFILEDEF(.CURVE.,$,#12);\n#12=IFCPOLYLINE((#13,#14));\n"
+      "#13=IFCCARTESIANPOINT((1.,0.,0.));\n#14=IFCCARTESIANPOINT((0.,2.,0.));\n#15=IFCAXIS2PLACEMENT3D(#17,#18,#19);\n"
+      "#16=IFCAXIS1PLACEMENT(#17,#20);\n#17=IFCCARTESIANPOINT((0.,0.,0.));\n#18=IFCDIRECTION((0.,-1.,0.));\n"
+      "#19=IFCDIRECTION((1.,0.,0.));\n#20=IFCDIRECTION((0.,1.,0.));");
+  Ring3 ring;  // round the rim, up the seam to the apex and down again
+  for (int k = 0; k <= 48; ++k) ring.emplace_back(std::cos(2 * kPi * (k % 48) / 48), std::sin(2 * kPi * (k % 48) / 48), 0);
+  ring.emplace_back(0, 0, 2);
+  const UnrolledFace face = SurfaceReader(*model_, *placements_, *curves_, options_.chord_tolerance_m).Unroll(Get(10), {ring});
+  ASSERT_EQ(face.rings.size(), 1u);
+  EXPECT_TRUE(face.is_ruled);
+  const Triangulation2 result = TriangulatePolygon(face.rings);
+  EXPECT_EQ(result.triangles.size(), 48u);
+  for (const Eigen::Vector3i& t : result.triangles) EXPECT_EQ(t.maxCoeff(), 49);
+  ring.pop_back();
+  ring.pop_back();
+  EXPECT_TRUE(SurfaceReader(*model_, *placements_, *curves_, options_.chord_tolerance_m).Unroll(Get(10), {ring}).rings.empty());
+}
+
+// A column between two circles, its side without a seam edge, with or without its upper circle.
+std::string SeamlessColumn(bool whole) {
+  return fmt::format(
+      "#10=IFCADVANCEDBREP(#11);\n#11=IFCCLOSEDSHELL((#12,#13,#14));\n#12=IFCADVANCEDFACE((#20{}),#40,.T.);\n"
+      "#13=IFCADVANCEDFACE((#22),#41,.F.);\n#14=IFCADVANCEDFACE((#23),#42,.T.);\n"
+      "#20=IFCFACEBOUND(#24,.T.);\n#21=IFCFACEBOUND(#25,.T.);\n#22=IFCFACEOUTERBOUND(#24,.F.);\n#23=IFCFACEOUTERBOUND(#25,.F.);\n"
+      "#24=IFCEDGELOOP((#26));\n#25=IFCEDGELOOP((#27));\n#26=IFCORIENTEDEDGE(*,*,#30,.T.);\n#27=IFCORIENTEDEDGE(*,*,#31,.F.);\n"
+      "#30=IFCEDGECURVE(#32,#32,#34,.T.);\n#31=IFCEDGECURVE(#33,#33,#35,.T.);\n#32=IFCVERTEXPOINT(#36);\n#33=IFCVERTEXPOINT(#37);\n"
+      "#34=IFCCIRCLE(#43,0.5);\n#35=IFCCIRCLE(#44,0.5);\n#36=IFCCARTESIANPOINT((0.5,0.,0.));\n#37=IFCCARTESIANPOINT((0.5,0.,3.));\n"
+      "#40=IFCCYLINDRICALSURFACE(#43,0.5);\n#41=IFCPLANE(#43);\n#42=IFCPLANE(#44);\n#43=IFCAXIS2PLACEMENT3D(#45,$,$);\n"
+      "#44=IFCAXIS2PLACEMENT3D(#46,$,$);\n#45=IFCCARTESIANPOINT((0.,0.,0.));\n#46=IFCCARTESIANPOINT((0.,0.,3.));",
+      whole ? ",#21" : "");
+}
+
+TEST_F(CylinderTest, AColumnWithoutSeamEdgeIsClosed) {
+  const ShapeParts parts = ReadItem(SeamlessColumn(true), "#10", "AdvancedBrep");
+  ASSERT_EQ(parts.size(), 1u);
+  EXPECT_TRUE(IsClosed(parts[0].solid));
+  EXPECT_NEAR(Volume(parts[0].solid), kPi * 0.25 * 3, 0.03);
+  EXPECT_TRUE(diagnostics_.all().empty());
+}
+
+TEST_F(CylinderTest, AFaceThatCannotBeUnrolledIsSaidToBeSimplified) {
+  (void)ReadItem(SeamlessColumn(false), "#10", "AdvancedBrep");
+  ASSERT_FALSE(diagnostics_.all().empty());
+  EXPECT_EQ(diagnostics_.all()[0].kind, DiagnosticKind::kSimplifiedGeometry);
 }
 
 TEST_F(SurfaceReaderTest, KnotsThatDoNotFitAreNoSurface) {
@@ -217,7 +373,9 @@ TEST_F(SurfaceReaderTest, KnotsThatDoNotFitAreNoSurface) {
       "#10=IFCBSPLINESURFACEWITHKNOTS(1,1,((#21,#22),(#23,#24)),.UNSPECIFIED.,.F.,.F.,.F.,(2,3),(2,2),(0.,1.),(0.,1.),.UNSPECIFIED.);\n"
       "#21=IFCCARTESIANPOINT((0.,0.,0.));\n#22=IFCCARTESIANPOINT((0.,0.,1.));\n#23=IFCCARTESIANPOINT((1.,0.,0.));\n"
       "#24=IFCCARTESIANPOINT((1.,0.,1.));");
-  EXPECT_TRUE(SurfaceReader(*model_, *placements_, *curves_).Unroll(Get(10), {{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}}}).rings.empty());
+  EXPECT_TRUE(SurfaceReader(*model_, *placements_, *curves_, options_.chord_tolerance_m)
+                  .Unroll(Get(10), {{{0, 0, 0}, {1, 0, 0}, {1, 0, 1}}})
+                  .rings.empty());
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "compiler/frontends/drawing/plane.h"
 #include "compiler/frontends/drawing/single_lines.h"
 #include "compiler/geometry/box_tree.h"
+#include "compiler/geometry/cell_lists.h"
 #include "compiler/geometry/for_each_job.h"
 #include "schema/polygon.h"
 
@@ -26,6 +27,7 @@ constexpr double kAround_m = 0.1;    // ... to the walls around it
 constexpr double kSampled_m = 0.4;  // between points where a face is measured
 constexpr int kMaxSamples = 40;     // on one side of it
 constexpr double kOff_m = 1e-4;  // from a line into the face beside it
+constexpr int kHealRounds = 3;   // a line whose end was led elsewhere leaves others beside it
 constexpr size_t kMinParallel = 1 << 15;  // half-edges to measure
 
 struct WeightedLength {
@@ -86,11 +88,40 @@ class MassFinder {
     return map.has_value();
   }
 
+  // Moves the ends rather than adding lines: a stub of millimetres beside a corner would be a side of the wall. A curve keeps its shape.
+  void LeadEnds(const std::vector<Heal>& heals) {
+    std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> moves;
+    for (const Heal& heal : heals) {
+      moves.emplace_back(heal.from, heal.to);
+      if (heal.mate) moves.emplace_back(*heal.mate, heal.to);
+    }
+    CellLists froms(options_.join_m);
+    for (const auto& [from, to] : moves) froms.Add(from);
+    std::vector<MapLine> stubs;
+    for (MapLine& line : lines_) {
+      const bool keeps = line.source < drawing_.paths.size() && (drawing_.paths[line.source].curved || !drawing_.paths[line.source].arcs.empty());
+      for (Eigen::Vector2d* end : {&line.a, &line.b}) {
+        auto found = static_cast<uint32_t>(moves.size());
+        froms.ForEachNear(*end, [&](uint32_t i) {
+          if (i < found && (moves[i].first - *end).norm() <= options_.join_m) found = i;
+        });
+        if (found == moves.size()) continue;
+        if (keeps) stubs.push_back({*end, moves[found].second, kClosing});
+        else *end = moves[found].second;
+      }
+    }
+    lines_.insert(lines_.end(), stubs.begin(), stubs.end());
+  }
+
   // False: too many crossings.
   bool Close() {
-    out_.heals = FindHeals(Map(), options_);
-    for (const Heal& heal : out_.heals) lines_.push_back({heal.from, heal.to, kClosing});
-    if (!out_.heals.empty() && !Build()) return false;
+    for (int round = 0; round < kHealRounds; ++round) {
+      const std::vector<Heal> heals = FindHeals(Map(), options_);
+      if (heals.empty()) break;
+      LeadEnds(heals);
+      if (!Build()) return false;
+      out_.heals.insert(out_.heals.end(), heals.begin(), heals.end());
+    }
     const auto closings = FindClosings(Map(), options_);
     for (const auto& [from, to] : closings) lines_.push_back({from, to, kClosing});
     return closings.empty() || Build();

@@ -31,8 +31,9 @@ struct MassOptions {
 // The end of a line that was led to another line, or to its end.
 struct Heal {
   Eigen::Vector2d from, to;
-  uint32_t path = 0, other = 0;  // of the drawing; none of them where it was healed before
-  [[nodiscard]] double distance_m() const { return (to - from).norm(); }
+  std::optional<Eigen::Vector2d> mate;  // the other line's end, where that was led to `to` as well
+  uint32_t path = 0, other = 0;         // of the drawing
+  [[nodiscard]] double distance_m() const { return (mate.value_or(to) - from).norm(); }
 };
 
 struct WallMass {
@@ -41,7 +42,7 @@ struct WallMass {
   std::vector<bool> is_curved;   // by edge: a step along a curve
   std::vector<uint32_t> circle_of;  // by edge: in `circles`, where it is a step along an arc; else 0xffffffff
   std::vector<Circle> circles;
-  std::vector<Heal> heals;         // nearest first
+  std::vector<Heal> heals;
   double typical_thickness_m = 0;  // 0: no face is a wall
   double single_m = 0;           // length of lines that have no partner
   bool single_lines = false;     // they were given a thickness

@@ -25,6 +25,7 @@ constexpr uint32_t kClosing = 0xfffffffeu;  // source of a line that the drawing
 constexpr double kBeside_m = 0.02;   // from a room's outline into the room
 constexpr double kAround_m = 0.1;    // ... to the walls around it
 constexpr double kSampled_m = 0.4;  // between points where a face is measured
+constexpr double kFreeShare = 0.75;  // of a wall's boundary: all but a short side and half of a long one
 constexpr int kMaxSamples = 40;     // on one side of it
 constexpr double kOff_m = 1e-4;  // from a line into the face beside it
 constexpr int kHealRounds = 3;   // a line whose end was led elsewhere leaves others beside it
@@ -154,21 +155,30 @@ class MassFinder {
     return out;
   }
 
+  // The median of what is measured across, or the mean where that is more than a wall's: free space that a line runs round close by
+  // is narrow along most of its boundary, too.
+  double ThicknessOf(uint32_t face, const std::vector<WeightedLength>& widths) const {
+    double length_m = 0;
+    for (const auto& w : widths) length_m += w.weight_m;
+    const double mean_m = length_m > 0 ? 2 * Map().AreaOf(face) / length_m : 0;
+    return mean_m > options_.max_thickness_m ? mean_m : WeightedMedian(widths);
+  }
+
   void Classify() {
     const auto widths = MeasureFaces();
-    std::vector<double> median(Map().num_faces(), 0);
+    std::vector<double> thickness_m(Map().num_faces(), 0);
     std::vector<WeightedLength> typical;
     for (uint32_t f = 1; f < Map().num_faces(); ++f) {
-      median[f] = WeightedMedian(widths[f]);
-      if (median[f] < options_.min_thickness_m || median[f] > options_.max_thickness_m) continue;
-      for (const auto& w : widths[f]) typical.push_back({median[f], w.weight_m});
+      thickness_m[f] = ThicknessOf(f, widths[f]);
+      if (thickness_m[f] < options_.min_thickness_m || thickness_m[f] > options_.max_thickness_m) continue;
+      for (const auto& w : widths[f]) typical.push_back({thickness_m[f], w.weight_m});
     }
     out_.typical_thickness_m = WeightedMedian(typical);
     const double limit = out_.ThickestUsual_m(options_);
     out_.is_wall.assign(Map().num_faces(), false);
-    for (uint32_t f = 1; f < Map().num_faces(); ++f) out_.is_wall[f] = median[f] > 0 && median[f] <= limit;
+    for (uint32_t f = 1; f < Map().num_faces(); ++f) out_.is_wall[f] = thickness_m[f] > 0 && thickness_m[f] <= limit;
     MarkFilled();
-    MarkPiers(median);
+    MarkPiers(thickness_m);
     ClearRooms();
     CountSingleLines();
   }
@@ -229,7 +239,8 @@ class MassFinder {
       } while (h != loop);
     }
     if (2 * free_m <= length_m) return false;
-    if (width_m > 0 && width_m <= options_.max_thickness_m) return true;  // a wall much thicker than most
+    // A wall much thicker than most; a strip that leans on a wall with one long side is a ledge, or the air below one.
+    if (width_m > 0 && width_m <= options_.max_thickness_m && free_m >= kFreeShare * length_m) return true;
     return Map().LoopsOf(face).size() == 1 &&
            LesserSide(Map().RingAt(start)) <= (one_outline ? options_.max_pier_m : options_.max_loose_pier_m);
   }

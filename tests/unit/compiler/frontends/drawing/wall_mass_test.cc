@@ -98,6 +98,40 @@ TEST(WallMass, WhatIsFarForItsThicknessIsNoSlip) {
   EXPECT_TRUE(mass.heals.empty());
 }
 
+// A room of 8 m by 6 m in walls of 0.2 m with a doorway to the outside, and a rectangle `away_m` outside.
+Drawing HouseWithin(double away_m) {
+  Drawing out;
+  DrawnPath walls;
+  walls.points = {{3, 0}, {0, 0}, {0, 6}, {8, 6}, {8, 0}, {4, 0}, {4, 0.2}, {7.8, 0.2}, {7.8, 5.8}, {0.2, 5.8}, {0.2, 0.2}, {3, 0.2}};
+  walls.closed = true;
+  out.paths.push_back(std::move(walls));
+  AddBox(-away_m, -away_m, 8 + away_m, 6 + away_m, out);
+  for (DrawnPath& path : out.paths) path.role = LineRole::kWall;
+  return out;
+}
+
+TEST(WallMass, ALineRoundTheBuildingFillsNothing) {
+  for (const double away_m : {0.2, 0.3, 0.5, 0.6}) {
+    const WallMass mass = MassOf(HouseWithin(away_m));
+    EXPECT_FALSE(IsWall(mass, 4, 3)) << away_m;
+    EXPECT_FALSE(IsWall(mass, -0.5 * away_m, 3)) << away_m;
+    EXPECT_TRUE(IsWall(mass, 0.1, 3)) << away_m;
+  }
+}
+
+// A line 0.6 m outside round two sides of a room in walls of 0.1 m.
+TEST(WallMass, ALedgeAlongAWallIsNoWall) {
+  Drawing drawing;
+  AddBox(0, 0, 8, 6, drawing);
+  AddBox(0.1, 0.1, 7.9, 5.9, drawing);
+  drawing.paths.push_back({});
+  drawing.paths.back().points = {{8, 1}, {8.6, 1}, {8.6, 6.6}, {3, 6.6}, {3, 6}};
+  for (DrawnPath& path : drawing.paths) path.role = LineRole::kWall;
+  const WallMass mass = MassOf(drawing);
+  EXPECT_FALSE(IsWall(mass, 8.3, 3));
+  EXPECT_TRUE(IsWall(mass, 7.95, 3));
+}
+
 // Outer walls 0.4 m thick around many partitions of 0.1 m: two outlines, one within the other.
 TEST(WallMass, ARingMuchThickerThanMostWallsIsAWallOnALayerOfWalls) {
   Drawing drawing;

@@ -89,6 +89,10 @@ class MassFinder {
     return map.has_value();
   }
 
+  bool IsOfCurve(uint32_t source) const {
+    return source < drawing_.paths.size() && (drawing_.paths[source].curved || !drawing_.paths[source].arcs.empty());
+  }
+
   // Moves the ends rather than adding lines: a stub of millimetres beside a corner would be a side of the wall. A curve keeps its shape.
   void LeadEnds(const std::vector<Heal>& heals) {
     std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> moves;
@@ -100,14 +104,13 @@ class MassFinder {
     for (const auto& [from, to] : moves) froms.Add(from);
     std::vector<MapLine> stubs;
     for (MapLine& line : lines_) {
-      const bool keeps = line.source < drawing_.paths.size() && (drawing_.paths[line.source].curved || !drawing_.paths[line.source].arcs.empty());
       for (Eigen::Vector2d* end : {&line.a, &line.b}) {
         auto found = static_cast<uint32_t>(moves.size());
         froms.ForEachNear(*end, [&](uint32_t i) {
           if (i < found && (moves[i].first - *end).norm() <= options_.join_m) found = i;
         });
         if (found == moves.size()) continue;
-        if (keeps) stubs.push_back({*end, moves[found].second, kClosing});
+        if (IsOfCurve(line.source)) stubs.push_back({*end, moves[found].second, kClosing});
         else *end = moves[found].second;
       }
     }
@@ -123,9 +126,10 @@ class MassFinder {
       if (!Build()) return false;
       out_.heals.insert(out_.heals.end(), heals.begin(), heals.end());
     }
-    const auto closings = FindClosings(Map(), options_);
-    for (const auto& [from, to] : closings) lines_.push_back({from, to, kClosing});
-    return closings.empty() || Build();
+    const Closings closings = FindClosings(Map(), options_);
+    for (const auto& [from, to] : closings.lines) lines_.push_back({from, to, kClosing});
+    out_.heals.insert(out_.heals.end(), closings.joined.begin(), closings.joined.end());
+    return closings.lines.empty() || Build();
   }
 
   // How far the other side of the half-edge's face is across from points of it.
@@ -278,6 +282,12 @@ class MassFinder {
 
 std::string MassOptions::Check() const {
   if (!(join_m > 0 && join_m < 0.05)) return fmt::format("MassOptions.join_m = {}; must be in (0, 0.05)", join_m);
+  if (!(heal_share >= 0 && heal_share <= 0.5)) return fmt::format("MassOptions.heal_share = {}; must be in [0, 0.5]", heal_share);
+  if (!(max_undershoot_m >= 0 && max_undershoot_m < 0.5))
+    return fmt::format("MassOptions.max_undershoot_m = {}; must be in [0, 0.5)", max_undershoot_m);
+  if (!(max_break_m >= 0 && max_break_m < 1)) return fmt::format("MassOptions.max_break_m = {}; must be in [0, 1)", max_break_m);
+  if (!(min_thickness_m > 0 && min_thickness_m < max_thickness_m))
+    return fmt::format("MassOptions.min_thickness_m = {}; must be in (0, max_thickness_m)", min_thickness_m);
   if (!(max_thickness_m > 0.1 && max_thickness_m < 3))
     return fmt::format("MassOptions.max_thickness_m = {}; must be in (0.1, 3)", max_thickness_m);
   if (!(single_line_thickness_m > 0.01 && single_line_thickness_m < 1))

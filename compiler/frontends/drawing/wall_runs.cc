@@ -24,7 +24,8 @@ Eigen::Vector2d Canonical(const Eigen::Vector2d& d) {
   return d.x() < -1e-9 || (std::abs(d.x()) <= 1e-9 && d.y() < 0) ? Eigen::Vector2d(-d) : d;
 }
 
-// The piece read in the direction of `run`: of two that lean to either side of the line where Canonical() turns round, one is read backwards.
+// The piece read in the direction of `run`: of two that lean to either side of the line where Canonical() turns round, one is read
+// backwards.
 WallRun AlongWith(const WallRun& run, WallRun piece) {
   if (run.along.dot(piece.along) >= 0) return piece;
   piece.along = -piece.along;

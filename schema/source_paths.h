@@ -20,4 +20,12 @@ inline constexpr std::string_view kBetweenSourcePaths = " + ";
   return out;
 }
 
+// For people: without their folders.
+[[nodiscard]] inline std::string SourceFileNames(std::string_view joined) {
+  std::string out;
+  for (const std::string& path : SplitSourcePaths(joined))
+    out += std::string(out.empty() ? "" : kBetweenSourcePaths) + path.substr(path.find_last_of('/') + 1);
+  return out;
+}
+
 }  // namespace plumb

@@ -4,6 +4,7 @@
 #include <zlib.h>
 
 #include <algorithm>
+#include <array>
 #include <cstdint>
 #include <limits>
 #include <optional>
@@ -112,11 +113,14 @@ std::vector<Entry> ReadDirectory(const ArchiveBytes& zip) {
   return entries;
 }
 
+// By its extension; what archivers leave beside a file (`__MACOSX/._plan.dxf`) is none.
 bool IsPlanName(std::string_view name) {
-  std::string lower(name);
+  constexpr std::array<std::string_view, 12> kExtensions = {".ifc", ".dxf", ".svg",  ".obj", ".ply", ".stl",
+                                                            ".gltf", ".glb", ".dae", ".sdf", ".world", ".dwg"};
+  std::string lower(name.substr(name.find_last_of('/') + 1));
   std::transform(lower.begin(), lower.end(), lower.begin(),
                  [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-  return lower.ends_with(".ifc") && !lower.starts_with("__macosx/");
+  return !lower.starts_with('.') && std::any_of(kExtensions.begin(), kExtensions.end(), [&](auto end) { return lower.ends_with(end); });
 }
 
 // Names in an archive are of any bytes.
@@ -164,7 +168,8 @@ Expected<std::string> UnpackPlan(std::string_view archive, size_t max_bytes) {
   const auto plans = std::count_if(entries.begin(), entries.end(), is_plan);
   if (plans != 1)
     return Fail(ErrorCode::kFileUnreadable,
-                fmt::format("the archive has {} entries and {} plans (.ifc); it must have one", entries.size(), plans));
+                fmt::format("the archive has {} files, {} of them plans; it must have one plan: take it out and give that", entries.size(),
+                            plans == 0 ? "none" : fmt::to_string(plans)));
   return Extract(zip, *std::find_if(entries.begin(), entries.end(), is_plan), max_bytes);
 }
 

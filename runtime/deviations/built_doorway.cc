@@ -11,11 +11,11 @@ namespace plumb::runtime {
 namespace {
 
 constexpr double kThreshold_m = 0.2, kLintel_m = 0.15;
-constexpr double kSearch_m = 0.5;        // of a jamb, to either side
-constexpr double kOtherFrame_m = 0.15;   // beside another opening
-constexpr double kMaxStep_m = 0.2;       // of a frame
+constexpr double kSearch_m = 0.5;       // of a jamb, to either side
+constexpr double kOtherFrame_m = 0.15;  // beside another opening
+constexpr double kMaxStep_m = 0.2;      // of a frame
 constexpr double kMinThickness_m = 0.03;
-constexpr double kMinParallel = 0.94;    // cos 20 deg, of the passage and the wall's normal
+constexpr double kMinParallel = 0.94;  // cos 20 deg, of the passage and the wall's normal
 
 // What a jamb is made of: walls and, of doors, what is no leaf.
 std::vector<bool> FixedTriangles(const AGraph& plan) {
@@ -96,7 +96,9 @@ double PlannedDoorways::PlainWallBeside(DoorwayId id, double side) const {
 std::optional<BuiltDoorway> PlannedDoorways::Built(DoorwayId id, const WallEstimate& wall) const {
   const Doorway& d = plan_.doorways[id.index()];
   const Surface& reference = plan_.surfaces[wall.reference.index()];
-  const WallFrame frame{wall.reference, {reference.midpoint().x(), reference.midpoint().y(), 0.5 * (reference.z_min_m + reference.z_max_m)}, reference.normal};
+  const WallFrame frame{wall.reference,
+                        {reference.midpoint().x(), reference.midpoint().y(), 0.5 * (reference.z_min_m + reference.z_max_m)},
+                        reference.normal};
   const Eigen::Vector2d across(std::cos(d.yaw_rad), std::sin(d.yaw_rad)), along(-across.y(), across.x()), c = d.position.head<2>();
   if (reference.arc || std::abs(across.dot(reference.normal.head<2>())) < kMinParallel) return std::nullopt;
   // Both faces as planned and as built, on the line through the doorways of the wall, beside the middle of its longest surface.

@@ -24,9 +24,9 @@ struct BuiltDoorway {
   DoorwayId doorway;
   WallId wall;
   Eigen::Vector2d origin = Eigen::Vector2d::Zero(), along = Eigen::Vector2d::UnitY(), across = Eigen::Vector2d::UnitX();
-  double w_a_m = 0, w_b_m = 0;        // of the built faces towards room_a and room_b
-  double z_min_m = 0, z_max_m = 0;    // of the opening, less thresholds and what is fixed to lintels
-  PlannedJamb right, left;            // at lower and at higher u
+  double w_a_m = 0, w_b_m = 0;      // of the built faces towards room_a and room_b
+  double z_min_m = 0, z_max_m = 0;  // of the opening, less thresholds and what is fixed to lintels
+  PlannedJamb right, left;          // at lower and at higher u
 
   [[nodiscard]] double U(const Eigen::Vector2d& p) const { return along.dot(p - origin); }
   [[nodiscard]] double W(const Eigen::Vector2d& p) const { return across.dot(p - origin); }

@@ -14,14 +14,14 @@ namespace plumb::runtime {
 
 struct DoorwayOptions {
   JambOptions jamb;
-  double tolerance_m = 0.005;       // of construction (standard deviation) that the test allows for, in shift and width each
-  double min_deviation_m = 0.02;    // smaller ones are as planned, however certain
-  double typical_deviation_m = 0.1; // of doorways that deviate (standard deviation)
-  double prior = 0.2;               // share of them
+  double tolerance_m = 0.005;        // of construction (standard deviation) that the test allows for, in shift and width each
+  double min_deviation_m = 0.02;     // smaller ones are as planned, however certain
+  double typical_deviation_m = 0.1;  // of doorways that deviate (standard deviation)
+  double prior = 0.2;                // share of them
   double min_p_deviated = 0.95;
-  double max_mdb_m = 0.1;           // a doorway of which only larger deviations would have been found was not tested
-  double max_wall_sigma_m = 0.03;   // a wall whose own place is known worse says nothing about its doorways
-  double max_sight_m = 8;           // farther lines pass too many places at once
+  double max_mdb_m = 0.1;                   // a doorway of which only larger deviations would have been found was not tested
+  double max_wall_sigma_m = 0.03;           // a wall whose own place is known worse says nothing about its doorways
+  double max_sight_m = 8;                   // farther lines pass too many places at once
   [[nodiscard]] std::string Check() const;  // empty, or the field, its value and the rule
 };
 
@@ -40,7 +40,8 @@ struct DoorwayDeviation {
 };
 
 // One per plan doorway. The jambs are looked for in the built frame of the wall, which must be matched and not be missing (`presence`: per
-// wall; empty: none is), to 0.5 m from where they are planned, as far as there is plain wall; the plan's frames are part of the jambs.
+// wall; empty: none is), to 0.5 m from where they are planned, as far as there is plain wall; in a corner
+// the next wall is the jamb; the plan's frames are part of the jambs.
 // Unobserved in maps of planar lasers. `map` with the poses of `estimate`. O(keyframe points + doorways). Deterministic.
 [[nodiscard]] std::vector<DoorwayDeviation> JudgeDoorways(const SGraph& map, const AGraph& plan, const JointResult& estimate,
                                                           const std::vector<WallPresence>& presence, const DoorwayOptions& options = {});

@@ -12,11 +12,14 @@ namespace plumb::runtime {
 namespace {
 
 constexpr std::array<double, JambEvidence::kClasses> kSigmas_m = {0.007, 0.011, 0.016, 0.025};  // of a class: its largest
-constexpr double kFrame_m = 0.15;       // a frame's parts lie so far behind the jamb
-constexpr double kJambShare = 0.45, kFrameShare = 0.5;
-constexpr double kAbout_m = 0.25;       // lines so far from the jamb may contradict it ...
-constexpr double kClear_m = 0.02;       // ... if they are so far on its wrong side
+constexpr double kFrame_m = 0.15;    // a frame's parts lie so far behind the jamb
+constexpr double kDensity_m = 0.08;  // up to so far from the jamb lines are about as dense as at it
+constexpr int kRounds = 3;
+constexpr double kJambShare = 0.8, kFrameShare = 0.15;
+constexpr double kAbout_m = 0.25;  // lines so far from the jamb may contradict it ...
+constexpr double kClear_m = 0.02;  // ... if they are so far on its wrong side
 constexpr double kBorder_m = 0.01;
+constexpr double kReachesShare = 0.02;  // of the lines that pass beside a jamb pass right at it: evenly spread it is a tenth
 constexpr double kFaceEndShare = 0.02;  // of what is seen on a face near its end lies beyond
 
 double Phi(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
@@ -60,16 +63,18 @@ class JambSearch {
  public:
   JambSearch(const JambEvidence& evidence, const JambOptions& options)
       : e_(evidence), options_(options), by_wall_(evidence.bins_, 0.0), by_passed_(evidence.bins_, 0.0) {
-    for (const JambEvidence::Histogram& face : e_.faces_) AddAll(face, [this](double d, double s) { return OneSided(d, s); }, by_wall_);
-    AddAll(e_.inside_, [this](double d, double s) { return Inside(d, s); }, by_wall_);
-    AddAll(e_.passed_, [this](double d, double s) { return OneSided(-d, s); }, by_passed_);
+    for (const JambEvidence::Histogram& face : e_.faces_)
+      AddAll(
+          face, [this](double d, double s) { return OneSided(d, s); }, by_wall_);
+    AddAll(
+        e_.inside_, [this](double d, double s) { return Inside(d, s); }, by_wall_);
+    AddAll(
+        e_.passed_, [this](double d, double s) { return OneSided(-d, s); }, by_passed_);
   }
 
   JambEstimate Run(double planned_step_m) {
-    JambEstimate out = Posterior(1, 1);
-    // Lines smear either way, and each kind pushes the jamb off by that: where one kind is many times more frequent it must not win by numbers.
-    const double wall = std::max(1.0, CountWall(out.x_m)), passed = std::max(1.0, CountPassed(out.x_m));
-    out = Posterior(std::min(1.0, passed / wall), std::min(1.0, wall / passed));
+    JambEstimate out = Posterior(0);
+    for (int i = 0; i < kRounds; ++i) out = Posterior(PushPerMetre(out.x_m));
     double variance_m2 = out.sigma_m * out.sigma_m + options_.floor_sigma_m * options_.floor_sigma_m;
     const bool border = out.x_m < -e_.outward_m_ + kBorder_m || out.x_m > e_.inward_m_ - kBorder_m;
     bool known = !border && IsSeen(out.x_m) && !IsContradicted(out.x_m);
@@ -83,17 +88,32 @@ class JambSearch {
     }
     out.sigma_m = std::sqrt(variance_m2);
     out.known = known && out.sigma_m <= options_.max_sigma_m;
+    out.on_reveal = IsOnReveal(out.x_m);
     return out;
+  }
+
+  JambEstimate Confirm(double x_m, double sigma_m) const {
+    const double beyond = Count(e_.passed_, x_m - kAbout_m, x_m - kClear_m), beside = CountPassed(x_m);
+    const double at = Count(e_.passed_, x_m - kClear_m, x_m + kClear_m);
+    const bool known = beside >= options_.min_lines && e_.passed_seen_.keyframes >= options_.min_keyframes &&
+                       beyond <= options_.max_contradicted * beside && at >= kReachesShare * beside;
+    return {known && sigma_m <= options_.max_sigma_m, x_m, std::hypot(sigma_m, options_.floor_sigma_m), true};
   }
 
  private:
   [[nodiscard]] double X(size_t bin) const { return (static_cast<double>(bin) + 0.5) * JambEvidence::kBin_m - e_.outward_m_; }
 
-  [[nodiscard]] JambEstimate Posterior(double wall_weight, double passed_weight) const {
+  // Lines smear over the jamb, and each kind would push it off by that, as often as there are lines of it: of evenly spread lines by their
+  // density, which is the derivative of the normalisation of P(x | e) that is left out in by_wall_ and by_passed_. + inwards.
+  [[nodiscard]] double PushPerMetre(double x_m) const {
+    double wall = 0;
+    for (const auto& face : e_.faces_) wall += Count(face, x_m - kDensity_m, x_m - kClear_m);
+    return (wall - Count(e_.passed_, x_m + kClear_m, x_m + kDensity_m)) / (kDensity_m - kClear_m);
+  }
+
+  [[nodiscard]] JambEstimate Posterior(double push_per_m) const {
     std::vector<double> log_p(e_.bins_);
-    for (size_t i = 0; i < log_p.size(); ++i) {
-      log_p[i] = (wall_weight * by_wall_[i] + passed_weight * by_passed_[i]) / options_.correlation;
-    }
+    for (size_t i = 0; i < log_p.size(); ++i) log_p[i] = (by_wall_[i] + by_passed_[i] - push_per_m * X(i)) / options_.correlation;
     const double most = *std::max_element(log_p.begin(), log_p.end());
     double sum = 0, mean = 0, square = 0;
     for (size_t i = 0; i < log_p.size(); ++i) {
@@ -153,7 +173,13 @@ class JambSearch {
   [[nodiscard]] double CountPassed(double x_m) const { return Count(e_.passed_, x_m - kClear_m, x_m + options_.near_m); }
 
   [[nodiscard]] bool IsSeen(double x_m) const {
-    return std::min(CountWall(x_m), CountPassed(x_m)) >= options_.min_lines && std::min(e_.wall_seen_.keyframes, e_.passed_seen_.keyframes) >= options_.min_keyframes;
+    return std::min(CountWall(x_m), CountPassed(x_m)) >= options_.min_lines &&
+           std::min(e_.wall_seen_.keyframes, e_.passed_seen_.keyframes) >= options_.min_keyframes;
+  }
+
+  [[nodiscard]] bool IsOnReveal(double x_m) const {
+    const double on = Count(e_.inside_, x_m - kClear_m, x_m + kClear_m), behind = Count(e_.inside_, x_m - kFrame_m, x_m - kClear_m);
+    return on >= options_.min_lines && on >= behind;
   }
 
   [[nodiscard]] bool IsContradicted(double x_m) const {
@@ -194,8 +220,11 @@ class JambSearch {
 };
 
 std::string JambOptions::Check() const {
-  const std::pair<const char*, double> positive[] = {{"floor_sigma_m", floor_sigma_m}, {"max_sigma_m", max_sigma_m}, {"near_m", near_m},
-      {"max_step_m", max_step_m}, {"max_faces_apart_m", max_faces_apart_m}};
+  const std::pair<const char*, double> positive[] = {{"floor_sigma_m", floor_sigma_m},
+                                                     {"max_sigma_m", max_sigma_m},
+                                                     {"near_m", near_m},
+                                                     {"max_step_m", max_step_m},
+                                                     {"max_faces_apart_m", max_faces_apart_m}};
   for (const auto& [name, value] : positive) {
     if (!(value > 0 && std::isfinite(value))) return fmt::format("JambOptions.{} = {}; must be a positive number", name, value);
   }
@@ -207,6 +236,10 @@ std::string JambOptions::Check() const {
   if (min_lines < 1) return fmt::format("JambOptions.min_lines = {}; must be >= 1", min_lines);
   if (min_keyframes < 1) return fmt::format("JambOptions.min_keyframes = {}; must be >= 1", min_keyframes);
   return {};
+}
+
+JambEstimate ConfirmJamb(const JambEvidence& evidence, double x_m, double sigma_m, const JambOptions& options) {
+  return JambSearch(evidence, options).Confirm(x_m, sigma_m);
 }
 
 JambEstimate EstimateJamb(const JambEvidence& evidence, double planned_step_m, const JambOptions& options) {

@@ -13,8 +13,7 @@ namespace plumb::runtime {
 struct Sight {
   Eigen::Vector3d from, to;
   uint32_t keyframe = 0;
-  // How far the sensor moved until its next sweep that the map has points of: it was somewhere on that way.
-  Eigen::Vector3d step = Eigen::Vector3d::Zero();
+  Eigen::Matrix2d smear_m2 = Eigen::Matrix2d::Zero();  // of both, by motion that nobody could take out of the sweep
 };
 
 inline constexpr size_t kSightsPerKeyframe = 6000;
@@ -28,13 +27,10 @@ void ForEachSight(const SGraph& map, const Eigen::Isometry3d& T_plan_map, F&& vi
     const Eigen::Isometry3d T = T_plan_map * keyframe.T_map_kf;
     const size_t step = std::max<size_t>(1, (keyframe.points.size() + per_keyframe - 1) / per_keyframe);
     size_t next = 0;
-    Sight sight{T.translation(), {}, keyframe.id};
+    Sight sight{T.translation(), {}, keyframe.id, keyframe.smear.Rotated(T.linear()).m2.topLeftCorner<2, 2>()};
     for (size_t i = 0; i < keyframe.points.size(); i += step) {
       for (; next < keyframe.standpoints.size() && keyframe.standpoints[next].first_point <= i; ++next) {
-        const size_t other = next + 1 < keyframe.standpoints.size() ? next + 1 : next - std::min<size_t>(next, 1);
-        const Eigen::Vector3f step_kf = keyframe.standpoints[other].sensor - keyframe.standpoints[next].sensor;
         sight.from = T * keyframe.standpoints[next].sensor.cast<double>();
-        sight.step = T.linear() * (other > next ? step_kf : Eigen::Vector3f(-step_kf)).cast<double>();
       }
       sight.to = T * keyframe.points[i].cast<double>();
       visit(static_cast<const Sight&>(sight));

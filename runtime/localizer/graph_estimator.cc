@@ -19,6 +19,7 @@ namespace {
 // on those. Half of the walls that a planar laser sees are furniture, which may agree with each other better than with the walls.
 constexpr double kPlaceSigma_m = 0.1, kPlanarPlaceSigma_m = 0.05;
 
+constexpr double kDoorwayGrowth = 1.25;  // of the map, between two updates that judge doorways
 constexpr int kMaxHeld = 10;  // keyframes in a row: a robot that nobody looks for is never found
 
 // A registered scan by the keyframe that was the newest when it came: it follows that keyframe through every later solve.
@@ -64,6 +65,7 @@ struct GraphEstimator::Impl {
   int odometry_map = 0;
   size_t num_keyframes = 0;               // made of the present map so far, ...
   size_t solved_all_at = 0;               // ... and when everything was last solved
+  size_t doorways_judged_at = 0;          // ... and when doorways last were, for an update
   bool solve_due = false, rescore_due = false;
   int num_held = 0;                       // keyframes in a row that were only mapped
   std::vector<WallDeviation> known;       // per plan wall, as estimated so far
@@ -253,7 +255,7 @@ struct GraphEstimator::Impl {
     HoldPose();
     mapper = Mapper(options.mapper);
     places.clear();
-    num_keyframes = solved_all_at = 0;
+    num_keyframes = solved_all_at = doorways_judged_at = 0;
     last_try.reset();
     verdict = ever_fixed ? Verdict::kLost : Verdict::kSearching;
     ForgetFix();
@@ -292,8 +294,10 @@ struct GraphEstimator::Impl {
     told_verdict = verdict;
     // The estimate at hand may be one without covariances, and without them nothing is judged.
     const std::optional<Solution> fresh = requested && placed() ? Solved(true) : std::nullopt;
-    // Walls off, missing and unplanned wait for such a request or the end; where doorways are is part of every estimate.
-    if (changed && !fresh && placed()) {
+    // Walls off, missing and unplanned wait for such a request or the end. Doorways are judged as the map grows: from all its points, which
+    // takes as long as a solve.
+    if (changed && !fresh && placed() && static_cast<double>(num_keyframes) >= kDoorwayGrowth * static_cast<double>(doorways_judged_at)) {
+      doorways_judged_at = num_keyframes;
       changes.doorways = JudgeDoorways(mapper.graph(), plan, joint, changes.presence, options.deviations.doorways);
     }
     const DeviationReport report = fresh ? Deviations(fresh->joint, ChangesSeen(*fresh)) : Deviations(joint, changes);

@@ -14,7 +14,8 @@ namespace plumb::runtime {
 // What one scan saw.
 struct View {
   Eigen::Vector3d sensor = Eigen::Vector3d::Zero();  // keyframe frame
-  std::vector<Eigen::Vector3f> points;               // keyframe frame
+  std::vector<Eigen::Vector3f> points;               // keyframe frame, in the order of time
+  std::vector<Keyframe::Standpoint> standpoints;     // where it was meanwhile
 };
 
 struct ThinnedPoints {
@@ -27,8 +28,10 @@ class KeyframeWindow {
   // Opens at the lidar's pose T_odom_kf, which becomes the keyframe's.
   KeyframeWindow(const MapperOptions& options, double stamp_s, const Eigen::Isometry3d& T_odom_kf);
 
-  // `planar`: of a planar laser, whose scans make no surfels. `smear`: in the lidar's axes.
-  void Add(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar, bool planar, const Smear& smear = {});
+  // `planar`: of a planar laser, whose scans make no surfels. `smear`: in the lidar's axes. `velocity_m_s`: of the sensor during the sweep,
+  // in the axes of odom.
+  void Add(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar, bool planar, const Smear& smear = {},
+           const Eigen::Vector3d& velocity_m_s = Eigen::Vector3d::Zero());
 
   [[nodiscard]] double stamp_s() const { return stamp_s_; }
   [[nodiscard]] const Eigen::Isometry3d& T_odom_kf() const { return T_odom_kf_; }

@@ -1,4 +1,4 @@
-// Loop closure of planar scans: finds places that the robot has been at before.
+// Loop closure of planar scans (3D lidars: spatial_loops.h): finds places that the robot has been at before.
 //
 // A keyframe's scan is searched for (correlative_search.h) on the scans about an earlier keyframe, in a window that follows from the
 // covariance of the one's pose in the other, and refined on their lines. It counts if it explains the scan, and if it is no further from

@@ -9,6 +9,7 @@
 
 #include "runtime/mapping/keyframe_merging.h"
 #include "runtime/mapping/planar_segmentation.h"
+#include "runtime/mapping/pose_graph.h"
 #include "runtime/mapping/segmentation.h"
 #include "runtime/odometry/planar/planar_scan.h"
 
@@ -25,7 +26,7 @@ struct Distance {
   double m, rad;
 };
 
-Distance Between(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
+Distance DistanceBetween(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b) {
   const Eigen::Isometry3d T = a.inverse() * b;
   return {T.translation().norm(), Eigen::AngleAxisd(T.linear()).angle()};
 }
@@ -55,20 +56,28 @@ std::string MapperOptions::Check() const {
   if (!(merge_distance_m > 0)) return bad("merge_distance_m", merge_distance_m, "> 0");
   if (!(merge_angle_rad > 0 && merge_angle_rad < 0.5)) return bad("merge_angle_rad", merge_angle_rad, "in (0, 0.5)");
   if (!(merge_gap_m >= 0)) return bad("merge_gap_m", merge_gap_m, ">= 0");
-  return {};
+  return loops.Check();
 }
 
-Mapper::Mapper(const MapperOptions& options) : options_(options), loops_(kPointShare * options.plane_sigma_m) {}
+Mapper::Mapper(const MapperOptions& options)
+    : options_(options), planar_loops_(kPointShare * options.plane_sigma_m), spatial_loops_(options.loops) {}
 
 bool Mapper::AddScan(const Scan& deskewed, const Eigen::Isometry3d& T_odom_lidar, const std::optional<Eigen::Matrix3d>& planar_step,
                      bool timed) {
   const bool grown = window_ && WindowIsFull(deskewed.stamp_s, T_odom_lidar) && CloseWindow();
-  if (planar_step) loops_.Move(Leveled(T_odom_lidar).pose, *planar_step);
-  if (!window_ && planar_step) loops_.Open();
+  if (planar_step) planar_loops_.Move(Leveled(T_odom_lidar).pose, *planar_step);
+  if (!window_ && planar_step) planar_loops_.Open();
   if (!window_) window_.emplace(options_, deskewed.stamp_s, T_odom_lidar);
-  window_->Add(deskewed, T_odom_lidar, planar_step.has_value(), timed ? Smear() : SmearOf(deskewed.stamp_s, T_odom_lidar));
+  window_->Add(deskewed, T_odom_lidar, planar_step.has_value(), timed ? Smear() : SmearOf(deskewed.stamp_s, T_odom_lidar),
+               VelocitySinceLast(deskewed.stamp_s, T_odom_lidar));
   last_scan_ = LastScan{deskewed.stamp_s, T_odom_lidar};
   return grown;
+}
+
+// In the axes of odom.
+Eigen::Vector3d Mapper::VelocitySinceLast(double stamp_s, const Eigen::Isometry3d& T_odom_lidar) const {
+  if (!last_scan_ || stamp_s <= last_scan_->stamp_s) return Eigen::Vector3d::Zero();
+  return (T_odom_lidar.translation() - last_scan_->T_odom_lidar.translation()) / (stamp_s - last_scan_->stamp_s);
 }
 
 // Points of a sweep are evenly spread over the sensor's way meanwhile, at the speed since the last scan, and the pose is that of their
@@ -85,7 +94,7 @@ Smear Mapper::SmearOf(double stamp_s, const Eigen::Isometry3d& T_odom_lidar) con
 bool Mapper::Flush() { return window_ && CloseWindow(); }
 
 bool Mapper::WindowIsFull(double stamp_s, const Eigen::Isometry3d& T_odom_lidar) const {
-  const Distance moved = Between(window_->T_odom_kf(), T_odom_lidar);
+  const Distance moved = DistanceBetween(window_->T_odom_kf(), T_odom_lidar);
   return moved.m >= options_.keyframe_distance_m || moved.rad >= options_.keyframe_rotation_rad ||
          stamp_s - window_->stamp_s() >= options_.keyframe_interval_s;
 }
@@ -95,7 +104,7 @@ bool Mapper::CloseWindow() {
   const KeyframeWindow window = std::move(*window_);
   window_.reset();
   if (!graph_.keyframes.empty()) {
-    const Distance moved = Between(graph_.keyframes.back().T_odom_kf, window.T_odom_kf());
+    const Distance moved = DistanceBetween(graph_.keyframes.back().T_odom_kf, window.T_odom_kf());
     if (moved.m < kStandingStill_m && moved.rad < kStandingStill_rad) return false;
   }
   Keyframe keyframe;
@@ -110,7 +119,7 @@ bool Mapper::CloseWindow() {
   if (keyframe.points.empty()) return false;
   if (!graph_.keyframes.empty()) {
     const Keyframe& last = graph_.keyframes.back();
-    const Distance moved = Between(last.T_odom_kf, keyframe.T_odom_kf);
+    const Distance moved = DistanceBetween(last.T_odom_kf, keyframe.T_odom_kf);
     keyframe.travelled_m = last.travelled_m + moved.m;
     keyframe.turned_rad = last.turned_rad + moved.rad;
   }
@@ -120,8 +129,9 @@ bool Mapper::CloseWindow() {
   for (const Segment& segment : segments) AddSegment(segment, graph_.keyframes.back());
   MergeDuplicates();
   if (window.planar()) {
-    CloseLoops(window);
+    ClosePlanarLoops(window);
   } else {
+    CloseSpatialLoops();
     BoundKeyframes();
   }
   return true;
@@ -138,7 +148,7 @@ void Mapper::BoundKeyframes() {
 }
 
 // After a planar keyframe.
-void Mapper::CloseLoops(const KeyframeWindow& window) {
+void Mapper::ClosePlanarLoops(const KeyframeWindow& window) {
   Scan seen;
   seen.points = window.views().front().points;
   const PreparedScan prepared = PrepareScan(seen, kPlanarSpacing_m, options_.min_range_m, options_.max_range_m);
@@ -148,10 +158,10 @@ void Mapper::CloseLoops(const KeyframeWindow& window) {
     poses.push_back(Leveled(keyframe.T_map_kf));
     planar.push_back(poses.back().pose);
   }
-  const bool closed = loops_.Add(MakePlanarScan(prepared, poses.back().leveling, {}, kPointShare * options_.plane_sigma_m), planar);
-  graph_.edges = loops_.edges();
+  const bool closed = planar_loops_.Add(MakePlanarScan(prepared, poses.back().leveling, {}, kPointShare * options_.plane_sigma_m), planar);
+  graph_.edges = planar_loops_.edges();
   if (!closed || poses_held_) return;
-  const std::vector<Pose2> solved = SolvePoseGraph(planar, loops_.edges());
+  const std::vector<Pose2> solved = SolvePoseGraph(planar, planar_loops_.edges());
   bool settled = true;
   for (size_t i = 0; i < solved.size(); ++i) {
     const Pose2 moved = Between(planar[i], solved[i]);
@@ -160,6 +170,20 @@ void Mapper::CloseLoops(const KeyframeWindow& window) {
   }
   if (settled) return;
   for (size_t i = 0; i < solved.size(); ++i) graph_.keyframes[i].T_map_kf = poses[i].Lifted();
+  OnPosesChanged();
+}
+
+void Mapper::CloseSpatialLoops() {
+  const std::vector<SpatialEdge> loops = spatial_loops_.Add(graph_);
+  graph_.loops.insert(graph_.loops.end(), loops.begin(), loops.end());
+  if (loops.empty() || poses_held_) return;
+  const bool settled = std::all_of(loops.begin(), loops.end(), [&](const SpatialEdge& loop) {
+    const Distance off = DistanceBetween(graph_.keyframes[loop.from].T_map_kf * loop.T_from_to, graph_.keyframes[loop.to].T_map_kf);
+    return off.m <= kSettled_m && off.rad <= kSettled_rad;
+  });
+  if (settled) return;
+  const std::vector<Eigen::Isometry3d> solved = SolvePoseGraph(graph_.keyframes, spatial_loops_.EdgesOf(graph_));
+  for (size_t i = 0; i < solved.size(); ++i) graph_.keyframes[i].T_map_kf = solved[i];
   OnPosesChanged();
 }
 

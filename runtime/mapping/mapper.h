@@ -46,10 +46,12 @@ class Mapper {
  private:
   [[nodiscard]] bool WindowIsFull(double stamp_s, const Eigen::Isometry3d& T_odom_lidar) const;
   bool CloseWindow();
+  [[nodiscard]] Eigen::Vector3d VelocitySinceLast(double stamp_s, const Eigen::Isometry3d& T_odom_lidar) const;
   [[nodiscard]] Smear SmearOf(double stamp_s, const Eigen::Isometry3d& T_odom_lidar) const;
   void AddSegment(const Segment& segment, const Keyframe& keyframe);
   void Empty(size_t i);
-  void CloseLoops(const KeyframeWindow& window);
+  void ClosePlanarLoops(const KeyframeWindow& window);
+  void CloseSpatialLoops();
   void MergeDuplicates();
   void BoundKeyframes();
 
@@ -63,7 +65,8 @@ class Mapper {
     Eigen::Isometry3d T_odom_lidar = Eigen::Isometry3d::Identity();
   };
   std::optional<LastScan> last_scan_;
-  LoopCloser loops_;
+  LoopCloser planar_loops_;
+  SpatialLoops spatial_loops_;
   bool poses_held_ = false;
 };
 

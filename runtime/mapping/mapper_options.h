@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "runtime/mapping/spatial_loops.h"
+
 namespace plumb::runtime {
 
 struct MapperOptions {
@@ -26,6 +28,7 @@ struct MapperOptions {
   double merge_distance_m = 0.035;  // same surface: within this at both ends of the overlap (a door leaf lies 5 cm behind its wall), ...
   double merge_angle_rad = 0.10;    // ... and this in direction (long ones less: 3 cm over the shorter's length, but at least 0.02), ...
   double merge_gap_m = 0.5;              // ... and no further apart along the wall
+  SpatialLoopOptions loops;
   [[nodiscard]] std::string Check() const;  // empty, or the field, its value and the rule
 };
 

@@ -110,12 +110,22 @@ struct PoseEdge {
   bool loop = false;  // may be wrong: a robust loss lets it go
 };
 
+// The same in space: T_from_to as measured; covariance of its increment (rotation, translation), see pose_motion.h. Along directions that
+// nothing was measured of it is as good as infinite.
+struct SpatialEdge {
+  uint32_t from = 0, to = 0;
+  Eigen::Isometry3d T_from_to = Eigen::Isometry3d::Identity();
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Identity();
+  bool loop = false;  // may be wrong: a robust loss lets it go
+};
+
 struct SGraph {
   // Made by a planar laser: walls are seen on one line, in the plane of the keyframes, whose height above the floor is not known; there are
   // no floors and ceilings, and height, roll and pitch of keyframes are conventions.
   bool planar = false;
   std::vector<Keyframe> keyframes;   // ids are stable; merged ones keep their slot, without points
   std::vector<PoseEdge> edges;  // between keyframes, of their levelled frames; by a planar laser: odometry's steps and the loops
+  std::vector<SpatialEdge> loops;  // between keyframes, by any other sensor
   std::vector<MapSurface> surfaces;  // ids are stable; merged ones keep their slot with no observations
 };
 

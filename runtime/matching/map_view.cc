@@ -7,11 +7,8 @@
 namespace plumb::runtime {
 namespace {
 
-constexpr double kMinWallLength_m = 0.4;
-constexpr double kMinHeightSeen_m = 0.25;       // area over length: less is a few stray rings on something rough, no wall
-constexpr double kMaxTilt = 0.26;               // |n_z| of an upright surface
-constexpr double kKeyframeSpacing_m = 0.3;      // closer ones see the same from the same place: no new evidence
-constexpr double kKeyframeTurn_rad = 0.52;      // ... unless they look elsewhere
+constexpr double kKeyframeSpacing_m = 0.3;  // closer ones see the same from the same place: no new evidence
+constexpr double kKeyframeTurn_rad = 0.52;  // ... unless they look elsewhere
 constexpr double kOnSurface_m = 0.10;
 constexpr double kMinRange_m = 0.4;
 constexpr int kAzimuths = 120, kElevations = 6;
@@ -32,26 +29,6 @@ std::optional<double> DominantHeight(const SGraph& map, SurfaceKind kind, const 
   }
   if (!best) return std::nullopt;
   return best->z_m;
-}
-
-std::vector<MapWall> UprightWalls(const SGraph& map) {
-  std::vector<MapWall> walls;
-  for (uint32_t i = 0; i < map.surfaces.size(); ++i) {
-    const MapSurface& s = map.surfaces[i];
-    if (s.kind != SurfaceKind::kWall || s.num_points <= 0 || std::abs(s.plane.n.z()) > kMaxTilt) continue;
-    MapWall w;
-    w.surface = i;
-    w.start = s.start;
-    w.end = s.end;
-    w.length_m = s.length_m();
-    if (!(w.length_m >= kMinWallLength_m) || s.area_m2 < kMinHeightSeen_m * w.length_m) continue;
-    w.along = (w.end - w.start) / w.length_m;
-    w.normal = {-w.along.y(), w.along.x()};
-    w.z_min_m = s.z_min_m;
-    w.z_max_m = s.z_max_m;
-    walls.push_back(w);
-  }
-  return walls;
 }
 
 // Farthest-point order: any number of them covers the map as well as that number can.
@@ -199,6 +176,7 @@ MapView ViewMap(const SGraph& map, const MatcherOptions& options) {
     moment += 0.5 * w.length_m * (w.start + w.end);
     view.wall_length_m += w.length_m;
   }
+  view.wall_sigma_m = SigmaOfWalls(view.walls);
   if (view.wall_length_m > 0) view.center_m = moment / view.wall_length_m;
   for (MapWall& w : view.walls) {
     w.start -= view.center_m;

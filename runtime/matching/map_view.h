@@ -7,16 +7,10 @@
 #include <vector>
 
 #include "runtime/mapping/sgraph.h"
+#include "runtime/matching/map_walls.h"
 #include "runtime/matching/matcher.h"
 
 namespace plumb::runtime {
-
-struct MapWall {
-  uint32_t surface = 0;  // SGraph::surfaces
-  Eigen::Vector2d start = Eigen::Vector2d::Zero(), end = Eigen::Vector2d::Zero();
-  Eigen::Vector2d normal = Eigen::Vector2d::UnitX(), along = Eigen::Vector2d::UnitY();
-  double length_m = 0, z_min_m = 0, z_max_m = 0;
-};
 
 struct MapRay {
   Eigen::Vector3d origin = Eigen::Vector3d::Zero(), direction = Eigen::Vector3d::UnitX();
@@ -37,14 +31,15 @@ class RangeBackground {
 
 // Frame: the map's, shifted by center_m in x and y.
 struct MapView {
-  bool planar = false;  // as SGraph
+  bool planar = false;                                 // as SGraph
   Eigen::Vector2d center_m = Eigen::Vector2d::Zero();  // map frame: middle of the walls, weighted by length
-  std::vector<MapWall> walls;                          // at least 0.4 m long and upright
-  double wall_length_m = 0;                            // of all of them
+  std::vector<MapWall> walls;
+  double wall_length_m = 0;    // of all of them
+  double wall_sigma_m = 0.02;  // of a wall that stands as planned: SigmaOfWalls()
   std::optional<double> floor_z_m, ceiling_z_m;
-  Eigen::Vector2d start_m = Eigen::Vector2d::Zero();   // of the first keyframe's sensor, ...
-  double sensor_z_m = 0, lowest_z_m = 0;               // ... its height; height of the points (1st percentile)
-  std::vector<MapRay> rays;                            // every k-th is again spread over keyframes and directions
+  Eigen::Vector2d start_m = Eigen::Vector2d::Zero();  // of the first keyframe's sensor, ...
+  double sensor_z_m = 0, lowest_z_m = 0;              // ... its height; height of the points (1st percentile)
+  std::vector<MapRay> rays;                           // every k-th is again spread over keyframes and directions
   RangeBackground background{{}};
 };
 

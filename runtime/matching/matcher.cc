@@ -41,9 +41,8 @@ class PoseSearch {
       candidates = SortAndMerge(std::move(candidates));
     }
     candidates.resize(std::min(candidates.size(), static_cast<size_t>(kFinalistsPerKept * options.keep_hypotheses)));
-    oneapi::tbb::parallel_for(size_t{0}, candidates.size(), [&](size_t i) {
-      candidates[i].rays = JudgeRays(plan, map, candidates[i].fit.pose, options);
-    });
+    oneapi::tbb::parallel_for(size_t{0}, candidates.size(),
+                              [&](size_t i) { candidates[i].rays = JudgeRays(plan, map, candidates[i].fit.pose, options); });
     return SortAndMerge(std::move(candidates));
   }
 
@@ -177,11 +176,13 @@ struct Matcher::Impl {
   Impl(const AGraph& plan, const MatcherOptions& options)
       : search(plan, options), mirror_image(MirrorImage(plan)), mirrored(mirror_image, search) {}
 
-  // Log-likelihood of the best pose in the mirror image, 0 if there is none or if it is the plan itself.
-  [[nodiscard]] double MirroredLikelihood(const MapView& map, const PlanarPose& pose) const {
-    const std::vector<Candidate> candidates = mirrored.Finalists(map);
-    if (candidates.empty() || IsOwnMirrorImage(search.plan, pose, candidates.front().fit.pose)) return 0;
-    return candidates.front().rays.log_likelihood;
+  // Log-likelihood of the best pose in the mirror image, 0 if there is none. Where the mirror image is the plan itself it is no other
+  // building: then of the best pose at which it is not.
+  [[nodiscard]] double MirroredLikelihood(const MapView& map, const WallFit& fit) const {
+    for (const Candidate& c : mirrored.Finalists(map)) {
+      if (!IsOwnMirrorImage(search.plan, fit, c.fit.pose)) return std::max(0.0, c.rays.log_likelihood);
+    }
+    return 0;
   }
 };
 
@@ -207,7 +208,7 @@ MatchResult Matcher::Match(const SGraph& map, const StartHint& hint) const {
     wrong.scaled = search.ScaledLikelihood(view, finalists.front());
   result = Decide(finalists, view, plan, search.options, wrong);
   if (result.verdict != MatchResult::Verdict::kUnique) return result;
-  wrong.mirrored = impl_->MirroredLikelihood(view, finalists.front().fit.pose);
+  wrong.mirrored = impl_->MirroredLikelihood(view, finalists.front().fit);
   return Decide(finalists, view, plan, search.options, wrong);
 }
 

@@ -6,6 +6,7 @@
 
 #include "runtime/matching/plan_index.h"
 #include "runtime/matching/planar_pose.h"
+#include "runtime/matching/refine.h"
 #include "schema/agraph.h"
 
 namespace plumb::runtime {
@@ -13,8 +14,9 @@ namespace plumb::runtime {
 // Across the plane x = AGraph::origin.x(); what matching reads of a plan but its triangles, no more: PlanIndex shares those.
 [[nodiscard]] AGraph MirrorImage(const AGraph& plan);
 
-// A map at `pose` in the plan and at `mirrored_pose` in its mirror image relates the two by a reflection of the plan. True if that takes
-// (nearly) all walls of the plan onto walls of it, and its doorways onto doorways: then the mirror image is the plan itself. O(faces^2).
-[[nodiscard]] bool IsOwnMirrorImage(const PlanIndex& plan, const PlanarPose& pose, const PlanarPose& mirrored_pose);
+// A map fitted to the plan and at `mirrored_pose` in its mirror image relates the two by a reflection of the plan. True if that takes the
+// plan's walls onto walls of it, nearly all of those that the map lies on and most of the others, and the doorways in the former onto
+// doorways: then what the mirror image shows there is the plan itself. O(faces^2).
+[[nodiscard]] bool IsOwnMirrorImage(const PlanIndex& plan, const WallFit& fit, const PlanarPose& mirrored_pose);
 
 }  // namespace plumb::runtime

@@ -9,20 +9,20 @@
 namespace plumb::runtime {
 namespace {
 
-constexpr double kWallSigma_m = 0.02;                    // map noise and building tolerance of a wall as planned
-constexpr double kTolerance_m = 3 * kWallSigma_m;        // within: as planned
-constexpr double kFullVoteLength_m = 2.0;                // longer walls do not count more: each may deviate as a whole
+constexpr double kToleranceSigmas = 3;     // of MapView::wall_sigma_m; within: as planned
+constexpr double kMostCounted_m = 0.06;    // ... but the wider, the more planes agree by chance: these count for a place
+constexpr double kFullVoteLength_m = 2.0;  // longer walls do not count more: each may deviate as a whole
 constexpr double kMinFaceOverlap_m = 0.5;
-constexpr double kGroupWidth_m = 0.12;
+constexpr double kGroupWidthRatio = 2, kTruncationRatio = 4.0 / 3;  // of the tolerance
 constexpr double kDirectionWidth_rad = 0.26;
 constexpr double kMinMajority = 1.5, kMinMajorityMargin = 0.75;  // in walls
-constexpr double kContestedSigma_m = 0.2;                 // of a wall in a direction whose walls do not agree on the displacement
+constexpr double kContestedSigma_m = 0.2;                        // of a wall in a direction whose walls do not agree on the displacement
 constexpr size_t kMaxConsensusGroups = 24;
 
 // The pairs of one physical wall: they move together, so they vote once.
 struct WallGroup {
   std::vector<size_t> pairs;
-  double weight = 0;    // in walls: 1 from kFullVoteLength_m on
+  double weight = 0;  // in walls: 1 from kFullVoteLength_m on
   double overlap_m = 0;
   Eigen::Vector2d normal = Eigen::Vector2d::UnitX();  // of the first pair's face
 };
@@ -33,7 +33,7 @@ double PairDisplacement(const PlanFace& face, const WallPair& pair, const Planar
 }
 
 // Parts of a wall that do not stand off alike (its ends and bends, a cupboard before it) make groups of their own.
-std::vector<WallGroup> GroupByWall(const PlanIndex& plan, const std::vector<WallPair>& pairs, const PlanarPose& pose) {
+std::vector<WallGroup> GroupByWall(const PlanIndex& plan, const std::vector<WallPair>& pairs, const PlanarPose& pose, double width_m) {
   std::vector<size_t> order(pairs.size());
   std::iota(order.begin(), order.end(), size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](size_t a, size_t b) { return pairs[a].overlap_m > pairs[b].overlap_m; });
@@ -47,7 +47,7 @@ std::vector<WallGroup> GroupByWall(const PlanIndex& plan, const std::vector<Wall
       const WallPair& first = pairs[g.pairs.front()];
       const double off_m =
           PairDisplacement(face, pairs[i], pose) - std::copysign(1.0, cosine) * PairDisplacement(plan.faces()[first.face], first, pose);
-      return std::abs(off_m) < kGroupWidth_m;
+      return std::abs(off_m) < width_m;
     });
     if (group == some.end()) {
       group = some.insert(some.end(), WallGroup());
@@ -65,8 +65,12 @@ std::vector<WallGroup> GroupByWall(const PlanIndex& plan, const std::vector<Wall
 
 class WallProblem {
  public:
-  WallProblem(const PlanIndex& plan, const std::vector<WallPair>& pairs, const PlanarPose& pose)
-      : plan_(plan), pairs_(pairs), groups_(GroupByWall(plan, pairs, pose)) {}
+  WallProblem(const PlanIndex& plan, const MapView& map, const std::vector<WallPair>& pairs, const PlanarPose& pose)
+      : plan_(plan), pairs_(pairs), sigma_m_(map.wall_sigma_m), groups_(GroupByWall(plan, pairs, pose, kGroupWidthRatio * tolerance_m())) {}
+
+  // Of a wall as planned, and how far off it may stand.
+  [[nodiscard]] double sigma_m() const { return sigma_m_; }
+  [[nodiscard]] double tolerance_m() const { return kToleranceSigmas * sigma_m_; }
 
   [[nodiscard]] const std::vector<WallGroup>& groups() const { return groups_; }
   [[nodiscard]] const PlanFace& face(size_t pair) const { return plan_.faces()[pairs_[pair].face]; }
@@ -108,6 +112,7 @@ class WallProblem {
  private:
   const PlanIndex& plan_;
   const std::vector<WallPair>& pairs_;
+  double sigma_m_;
   std::vector<WallGroup> groups_;
 };
 
@@ -135,11 +140,11 @@ Eigen::Vector2d ConsensusTranslation(const WallProblem& problem, const PlanarPos
   const size_t n = std::min(groups.size(), kMaxConsensusGroups);
   std::vector<double> displacement(groups.size());
   for (size_t i = 0; i < groups.size(); ++i) displacement[i] = problem.Displacement(groups[i], pose);
-  constexpr double kTruncation_m = 0.08;
+  const double truncation_m = kTruncationRatio * problem.tolerance_m();
   const auto cost = [&](const Eigen::Vector2d& shift) {
     double sum = 1e-3 * shift.norm();  // of equals, the nearest
     for (size_t i = 0; i < groups.size(); ++i) {
-      const double r = (displacement[i] + groups[i].normal.dot(shift)) / kTruncation_m;
+      const double r = (displacement[i] + groups[i].normal.dot(shift)) / truncation_m;
       sum += groups[i].weight * std::min(r * r, 1.0);
     }
     return sum;
@@ -165,7 +170,8 @@ Eigen::Vector2d ConsensusTranslation(const WallProblem& problem, const PlanarPos
 
 // Least squares with the Geman-McClure kernel, its width shrunk step by step to the wall tolerance.
 PlanarPose SolveGraduated(const WallProblem& problem, PlanarPose pose) {
-  for (double width_m : {0.24, 0.12, kTolerance_m, kTolerance_m}) {
+  const double least_m = problem.tolerance_m();
+  for (double width_m : {4 * least_m, 2 * least_m, least_m, least_m}) {
     for (int i = 0; i < 3; ++i) {
       // A weak prior holds directions that no wall fixes.
       Eigen::Matrix4d H = Eigen::Vector4d(1e-4, 1e-4, 1e-4, 0).asDiagonal();
@@ -187,6 +193,7 @@ PlanarPose SolveGraduated(const WallProblem& problem, PlanarPose pose) {
 // elsewhere "the walls are as planned" and "they all moved" explain the map equally well.
 std::vector<bool> InMajorityDirection(const WallProblem& problem, const PlanarPose& pose) {
   const std::vector<WallGroup>& groups = problem.groups();
+  const double tolerance_m = problem.tolerance_m();
   std::vector<bool> clear(groups.size(), false), done(groups.size(), false);
   for (size_t i = 0; i < groups.size(); ++i) {
     if (done[i]) continue;
@@ -201,13 +208,13 @@ std::vector<bool> InMajorityDirection(const WallProblem& problem, const PlanarPo
     }
     const auto support = [&](double at_m) {
       double sum = 0;
-      for (const auto& [x_m, w] : walls) sum += std::abs(x_m - at_m) < kTolerance_m ? w : 0;
+      for (const auto& [x_m, w] : walls) sum += std::abs(x_m - at_m) < tolerance_m ? w : 0;
       return sum;
     };
     const double here = support(0);
     double elsewhere = 0;
     for (const auto& [x_m, w] : walls) {
-      if (std::abs(x_m) >= kTolerance_m) elsewhere = std::max(elsewhere, support(x_m));
+      if (std::abs(x_m) >= tolerance_m) elsewhere = std::max(elsewhere, support(x_m));
     }
     if (here < kMinMajority || here - elsewhere < kMinMajorityMargin) continue;
     for (size_t j : members) clear[j] = true;
@@ -222,8 +229,10 @@ int CountPlanes(const PlanIndex& plan, const std::vector<double>& overlap_m) {
     if (overlap_m[k] <= 0) continue;
     const auto known =
         std::find_if(planes.begin(), planes.end(), [&](const auto& p) { return AreCoplanar(plan.faces()[p.first], plan.faces()[k]); });
-    if (known == planes.end()) planes.emplace_back(k, overlap_m[k]);
-    else known->second += overlap_m[k];
+    if (known == planes.end())
+      planes.emplace_back(k, overlap_m[k]);
+    else
+      known->second += overlap_m[k];
   }
   return static_cast<int>(std::count_if(planes.begin(), planes.end(), [](const auto& p) { return p.second >= kMinFaceOverlap_m; }));
 }
@@ -235,15 +244,18 @@ void Assess(const PlanIndex& plan, const MapView& map, const WallProblem& proble
   Eigen::Vector4d g = Eigen::Vector4d::Zero(), unused = Eigen::Vector4d::Zero();
   std::vector<double> overlap_m(plan.faces().size(), 0.0);
   double consistent_m = 0;
+  const double tolerance_m = problem.tolerance_m(), counted_m = std::min(tolerance_m, kMostCounted_m);
   for (size_t i = 0; i < groups.size(); ++i) {
-    if (problem.SquaredDistance(groups[i], fit.pose) > kTolerance_m * kTolerance_m) continue;
-    const double weight = groups[i].weight / (kWallSigma_m * kWallSigma_m);
+    const double squared_m2 = problem.SquaredDistance(groups[i], fit.pose);
+    if (squared_m2 > tolerance_m * tolerance_m) continue;
+    const double weight = groups[i].weight / (problem.sigma_m() * problem.sigma_m());
     problem.AddNormalEquations(groups[i], fit.pose, weight, H, g);
     if (clear[i]) {
       problem.AddNormalEquations(groups[i], fit.pose, weight, H_clear, unused);
     } else {
       problem.AddNormalEquations(groups[i], fit.pose, groups[i].weight / (kContestedSigma_m * kContestedSigma_m), H_contested, unused);
     }
+    if (squared_m2 > counted_m * counted_m) continue;
     for (size_t k : groups[i].pairs) {
       overlap_m[problem.pair(k).face] += problem.pair(k).overlap_m;
       consistent_m += problem.pair(k).overlap_m;
@@ -266,7 +278,7 @@ WallFit RefineOnWalls(const PlanIndex& plan, const MapView& map, const PlanarPos
   for (int round = 0; round < 3; ++round) {
     const std::vector<WallPair> pairs = PairWalls(plan, map, pose);
     if (pairs.empty()) break;
-    const WallProblem problem(plan, pairs, pose);
+    const WallProblem problem(plan, map, pairs, pose);
     if (round < 2) {
       pose.yaw_rad = MedianYaw(plan, map, pairs, pose.yaw_rad);
       pose.t_m = ConsensusTranslation(problem, pose);
@@ -280,7 +292,7 @@ WallFit AssessOnWalls(const PlanIndex& plan, const MapView& map, const PlanarPos
   WallFit fit;
   fit.pose = pose;
   fit.pairs = PairWalls(plan, map, pose);
-  Assess(plan, map, WallProblem(plan, fit.pairs, pose), fit);
+  Assess(plan, map, WallProblem(plan, map, fit.pairs, pose), fit);
   return fit;
 }
 

@@ -6,7 +6,6 @@
 namespace plumb::runtime {
 namespace {
 
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
 
 // Of a robot or a walking person, one sigma; less in tilt.
 const Eigen::Vector3d kAcceleration_mps2(3.0, 3.0, 1.0), kTurning_radps2(1.5, 1.5, 6.0);

@@ -35,7 +35,7 @@ struct OdometryResult {
   // At the scan's stamp. odom: origin and yaw of the first scan, z up (from floor, ceiling or walls in the first scan, else its own z
   // axis).
   Eigen::Isometry3d T_odom_lidar = Eigen::Isometry3d::Identity();
-  Scan deskewed;                 // finite points in range, in the lidar frame at the scan's stamp; time_s empty
+  Scan deskewed;                 // finite points in range, in the lidar frame at the scan's stamp; time_s still says when each was fired
   int iterations = 0;
   int num_inliers = 0;
   double rms_m = 0;              // of inlier point-to-plane residuals

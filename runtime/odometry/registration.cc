@@ -9,8 +9,6 @@
 namespace plumb::runtime {
 namespace {
 
-using Matrix6d = Eigen::Matrix<double, 6, 6>;
-
 constexpr double kInlierSigmas = 3.0;
 constexpr double kConverged_m = 1e-4, kConverged_rad = 2e-5;
 constexpr double kNormalNoiseMargin = 2.0;
@@ -183,6 +181,9 @@ RegistrationResult RegisterSweep(std::span<const SweepPoint> points, bool timed,
   }
   const NormalEquations last = Accumulate(points, map, result.motion, final_kernel_m, false, options.range_sigma_m);
   result.covariance = priors.Join(last, result.motion, options).H.ldlt().solve(Matrix12d::Identity());
+  const Matrix6d held = HeldDirections(last, options.degenerate_ratio);
+  result.information = held.transpose() * last.A[0] * held / options.points_per_independent;
+  result.num_held = static_cast<int>(std::lround(held.trace()));
   result.num_inliers = last.num_inliers;
   result.inlier_ratio = last.num_matched > 0 ? static_cast<double>(last.num_inliers) / last.num_matched : 0;
   result.overlap_ratio = points.empty() ? 0 : static_cast<double>(last.num_matched) / static_cast<double>(points.size());

@@ -18,6 +18,7 @@
 namespace plumb::runtime {
 
 using Vector6d = Eigen::Matrix<double, 6, 1>;
+using Matrix6d = Eigen::Matrix<double, 6, 6>;
 using Vector12d = Eigen::Matrix<double, 12, 1>;
 using Matrix12d = Eigen::Matrix<double, 12, 12>;
 
@@ -52,6 +53,9 @@ struct RegistrationResult {
   bool ok = false;        // enough points lie on the map's planes
   SweepMotion motion;
   Matrix12d covariance = Matrix12d::Identity();  // of (d, e) about `motion`, prior and points together
+  // Of d by the points alone, which hold `num_held` of its six directions; nothing along the others.
+  Matrix6d information = Matrix6d::Zero();
+  int num_held = 0;
   int iterations = 0;
   int num_inliers = 0;
   double inlier_ratio = 0;  // of the points that fell on a surfel

@@ -65,7 +65,6 @@ PreparedScan PrepareScan(const Scan& scan, double spacing_m, double min_range_m,
 
 Scan Deskew(const PreparedScan& prepared, const SweepMotion& motion) {
   Scan out = prepared.scan;
-  out.time_s.clear();
   if (prepared.sweep_s <= 0) return out;
   const SweepPoses poses({Eigen::Isometry3d::Identity(), motion.T_start.inverse() * motion.T_end});
   for (size_t i = 0; i < out.points.size(); ++i) {

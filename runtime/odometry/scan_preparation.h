@@ -62,7 +62,7 @@ struct PreparedScan {
 // the tail of a wall's noise, one point would stay as of any other, and the wall would be biased. O(points).
 [[nodiscard]] PreparedScan PrepareScan(const Scan& scan, double spacing_m, double min_range_m, double max_range_m);
 
-// All points moved to the lidar frame at the sweep's start; without times.
+// All points moved to the lidar frame at the sweep's start. They keep the times at which they were fired.
 [[nodiscard]] Scan Deskew(const PreparedScan& prepared, const SweepMotion& motion);
 
 }  // namespace plumb::runtime

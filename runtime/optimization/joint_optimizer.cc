@@ -266,19 +266,14 @@ class Optimizer {
 
 std::string JointOptions::Check() const {
   const std::pair<const char*, double> positive[] = {{"point_sigma_m", point_sigma_m}, {"observation_floor_m", observation_floor_m},
-      {"observation_floor_rad", observation_floor_rad}, {"observation_loss", observation_loss}, {"odometry_sigma_m", odometry_sigma_m},
-      {"odometry_sigma_rad", odometry_sigma_rad}, {"gravity_sigma_rad", gravity_sigma_rad}, {"bias_sigma_m", bias_sigma_m},
-      {"thickness_sigma_m", thickness_sigma_m}, {"tilt_sigma_rad", tilt_sigma_rad}, {"level_sigma_m", level_sigma_m},
-      {"place_sigma_m", place_sigma_m}};
+      {"observation_floor_rad", observation_floor_rad}, {"observation_loss", observation_loss},
+      {"gravity_sigma_rad", gravity_sigma_rad}, {"bias_sigma_m", bias_sigma_m}, {"thickness_sigma_m", thickness_sigma_m},
+      {"tilt_sigma_rad", tilt_sigma_rad}, {"level_sigma_m", level_sigma_m}, {"place_sigma_m", place_sigma_m}};
   for (const auto& [name, value] : positive) {
     if (!(value > 0)) return fmt::format("JointOptions.{} = {}; must be > 0", name, value);
   }
-  const std::pair<const char*, double> growth[] = {{"odometry_sigma_m_per_m", odometry_sigma_m_per_m},
-      {"odometry_sigma_rad_per_m", odometry_sigma_rad_per_m}, {"odometry_sigma_rad_per_rad", odometry_sigma_rad_per_rad},
-      {"odometry_sigma_m_per_s", odometry_sigma_m_per_s}, {"edge_m2", edge_m2}};
-  for (const auto& [name, value] : growth) {
-    if (!(value >= 0)) return fmt::format("JointOptions.{} = {}; must be >= 0", name, value);
-  }
+  if (std::string fault = odometry.Check(); !fault.empty()) return fault;
+  if (!(edge_m2 >= 0)) return fmt::format("JointOptions.edge_m2 = {}; must be >= 0", edge_m2);
   if (!(correlation >= 1)) return fmt::format("JointOptions.correlation = {}; must be >= 1", correlation);
   if (em_rounds < 1) return fmt::format("JointOptions.em_rounds = {}; must be >= 1", em_rounds);
   if (max_iterations < 1) return fmt::format("JointOptions.max_iterations = {}; must be >= 1", max_iterations);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "runtime/coupling/coupling.h"
+#include "runtime/mapping/odometry_drift.h"
 #include "runtime/mapping/sgraph.h"
 #include "runtime/optimization/estimation_mode.h"
 #include "runtime/optimization/wall_posterior.h"
@@ -22,12 +23,7 @@ struct JointOptions {
   double observation_floor_rad = 0.003;  // ... and direction
   double edge_m2 = 0.002;              // what clings to a surface's edge, height times width (2 cm by 10 cm): it turns short views
   double observation_loss = 3.0;       // Cauchy scale of a view, in sigmas: a wrong association loses its grip beyond
-  double odometry_sigma_m = 0.005;     // per keyframe step: a constant ...
-  double odometry_sigma_rad = 0.001;
-  double odometry_sigma_m_per_m = 0.01;      // ... plus a part that grows with the step's length, ...
-  double odometry_sigma_rad_per_m = 0.002;
-  double odometry_sigma_rad_per_rad = 0.01;  // ... turn ...
-  double odometry_sigma_m_per_s = 0.002;     // ... and duration
+  OdometryDrift odometry;
   double gravity_sigma_rad = 0.0087;   // roll and pitch of the first keyframe
   double bias_sigma_m = 0.02;          // prior of the common range bias
   double thickness_sigma_m = 0.01;     // prior of a wall's thickness error

@@ -8,6 +8,7 @@
 #include <memory>
 #include <utility>
 
+#include "runtime/mapping/pose_graph.h"
 #include "runtime/odometry/planar/planar_scan.h"
 #include "runtime/optimization/ceres_blocks.h"
 #include "runtime/optimization/level_pose_manifold.h"
@@ -57,6 +58,16 @@ struct JointProblem::Impl {
           Cost<OdometryResidual, 6, kPoseSize, kPoseSize>(OdometryStep(map.keyframes[last], map.keyframes[i], options)), &odometry_loss,
           state.poses[last].data(), state.poses[i].data());
       last = i;
+    }
+    AddLoops();
+  }
+
+  void AddLoops() {
+    for (const SpatialEdge& loop : map.loops) {
+      const uint32_t from = RootOf(map.keyframes[loop.from]), to = RootOf(map.keyframes[loop.to]);
+      if (from == to) continue;
+      problem.AddResidualBlock(Cost<MotionResidual, 6, kPoseSize, kPoseSize>(ResidualOf(loop, map.keyframes)), &loop_loss,
+                               state.poses[from].data(), state.poses[to].data());
     }
   }
 

@@ -1,9 +1,11 @@
 // How well the S-Graph maps a building, with no plan given to it: a drive simulated in each plan, then odometry, mapping and the final
 // polish.
-//   map_benchmark [--seconds S] [--noise M] [--clutter N] [--seed N] PLAN.agraph...
+//   map_benchmark [--seconds S] [--noise M] [--clutter N] [--seed N] [--drop S] PLAN.agraph...
+// --drop: so many seconds of scans are missing out of every 15.
 // One row for each plan. ATE: of the scans' positions, rms, with the first two seconds laid on the truth. Walls: the plan's plane surfaces
 // of which 20 scans or more have seen over 1 m, as built, against the map after that alignment: found if half of what was seen of them is
-// in the map.
+// in the map. Loop: where the robot comes by again, 20 m of way later or more and within 1 m, how far the second visit lies from where
+// the first has it, rms: as mapped, and after the polish.
 #include <fmt/core.h>
 #include <sys/resource.h>
 #include <unistd.h>
@@ -37,6 +39,8 @@ using namespace plumb::benchmarks;
 using Clock = std::chrono::steady_clock;
 
 constexpr size_t kStart_scans = 20;
+constexpr double kDropPeriod_s = 15;
+constexpr double kLoopWay_m = 20, kLoopDistance_m = 1;
 
 double Since_ms(Clock::time_point start) { return std::chrono::duration<double, std::milli>(Clock::now() - start).count(); }
 
@@ -57,7 +61,7 @@ struct Driven {
   std::vector<double> odometry_ms, mapping_ms;
 };
 
-bool Drive(const std::string& folder, std::vector<WallFace>& built, Driven& out) {
+bool Drive(const std::string& folder, double drop_s, std::vector<WallFace>& built, Driven& out) {
   const auto recording = Recording::Open(folder);
   const auto truth = ReadTum(folder + "/truth.tum");
   if (!recording || !truth) return false;
@@ -65,7 +69,7 @@ bool Drive(const std::string& folder, std::vector<WallFace>& built, Driven& out)
   for (size_t i = 0; i < recording->size(); ++i) {
     const auto scan = recording->Read(i);
     const auto at = scan ? InterpolatePose(*truth, scan->stamp_s) : std::nullopt;
-    if (!at) continue;
+    if (!at || std::fmod(scan->stamp_s, kDropPeriod_s) > kDropPeriod_s - drop_s) continue;
     auto start = Clock::now();
     const OdometryResult r = odometry.Register(*scan, std::nullopt);
     out.odometry_ms.push_back(Since_ms(start));
@@ -115,6 +119,27 @@ double Ate_m(const SGraph& map, const std::vector<ScanPlace>& places) {
   return std::sqrt(sum_m2 / static_cast<double>(places.size()));
 }
 
+// In the first visit's frame, by which the start's alignment cancels.
+double Loop_m(const SGraph& map, const std::vector<ScanPlace>& places) {
+  constexpr size_t kStep = 5;
+  std::vector<double> way_m(places.size(), 0.0);
+  for (size_t i = 1; i < places.size(); ++i) {
+    way_m[i] = way_m[i - 1] + (places[i].truth.translation() - places[i - 1].truth.translation()).norm();
+  }
+  double sum_m2 = 0;
+  size_t num_pairs = 0;
+  for (size_t i = 0; i < places.size(); i += kStep) {
+    for (size_t k = 0; k < i && way_m[i] - way_m[k] >= kLoopWay_m; k += kStep) {
+      const Eigen::Isometry3d true_step = places[k].truth.inverse() * places[i].truth;
+      if (true_step.translation().norm() > kLoopDistance_m) continue;
+      const Eigen::Isometry3d step = PoseIn(map, places[k]).inverse() * PoseIn(map, places[i]);
+      sum_m2 += (step.translation() - true_step.translation()).squaredNorm();
+      ++num_pairs;
+    }
+  }
+  return num_pairs > 0 ? std::sqrt(sum_m2 / static_cast<double>(num_pairs)) : 0;
+}
+
 double Percentile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
   std::sort(values.begin(), values.end());
@@ -128,21 +153,24 @@ double Mean(const std::vector<double>& values) {
 }
 
 void PrintHead() {
-  fmt::print("{:<32} {:>6} {:>7} {:>8} {:>8} {:>8} {:>11} {:>6} {:>9} {:>9} {:>9} {:>9} {:>8} {:>8} {:>8}\n", "plan", "s", "m", "odo cm",
-             "ATE cm", "best cm", "walls", "twice", "off mm", "95% mm", "turn deg", "95% deg", "odo ms", "p99 ms", "polish s");
+  fmt::print("{:<32} {:>6} {:>7} {:>8} {:>8} {:>8} {:>12} {:>11} {:>6} {:>9} {:>9} {:>9} {:>9} {:>8} {:>8} {:>8} {:>8}\n", "plan", "s", "m",
+             "odo cm", "ATE cm", "best cm", "loop cm", "walls", "twice", "off mm", "95% mm", "turn deg", "95% deg", "odo ms", "p99 ms",
+             "map ms", "polish s");
 }
 
 void PrintRow(const std::string& name, const tools::SimulateSummary& simulated, double odometry_m, double map_m, double best_m,
-              WallScore& walls, const Driven& driven, double polish_ms) {
+              std::pair<double, double> loop_m, WallScore& walls, const Driven& driven, double polish_ms) {
   fmt::print(
-      "{:<32} {:>6.0f} {:>7.1f} {:>8.2f} {:>8.2f} {:>8.2f} {:>11} {:>6} {:>9.1f} {:>9.1f} {:>9.3f} {:>9.3f} {:>8.2f} {:>8.2f} {:>8.2f}\n",
+      "{:<32} {:>6.0f} {:>7.1f} {:>8.2f} {:>8.2f} {:>8.2f} {:>12} {:>11} {:>6} {:>9.1f} {:>9.1f} {:>9.3f} {:>9.3f} {:>8.2f} {:>8.2f} "
+      "{:>8.2f} {:>8.2f}\n",
       name, simulated.duration_s, simulated.path_m, 100 * odometry_m, 100 * map_m, 100 * best_m,
-      fmt::format("{}/{}", walls.found, walls.walls), walls.twice, 1000 * Percentile(walls.offsets_m, 0.5),
-      1000 * Percentile(walls.offsets_m, 0.95), Percentile(walls.turns_deg, 0.5), Percentile(walls.turns_deg, 0.95),
-      Mean(driven.odometry_ms), Percentile(driven.odometry_ms, 0.99), polish_ms / 1000);
+      fmt::format("{:.2f}/{:.2f}", 100 * loop_m.first, 100 * loop_m.second), fmt::format("{}/{}", walls.found, walls.walls), walls.twice,
+      1000 * Percentile(walls.offsets_m, 0.5), 1000 * Percentile(walls.offsets_m, 0.95), Percentile(walls.turns_deg, 0.5),
+      Percentile(walls.turns_deg, 0.95), Mean(driven.odometry_ms), Percentile(driven.odometry_ms, 0.99), Mean(driven.mapping_ms),
+      polish_ms / 1000);
 }
 
-bool Run(const std::string& path, const tools::SimulateOptions& options, const std::string& folder) {
+bool Run(const std::string& path, const tools::SimulateOptions& options, double drop_s, const std::string& folder) {
   const auto plan = ReadAGraphFile(path);
   if (!plan) {
     fmt::print(stderr, "{}\n", plan.error().message);
@@ -155,8 +183,9 @@ bool Run(const std::string& path, const tools::SimulateOptions& options, const s
   }
   std::vector<WallFace> built = BuiltFaces(*plan, *simulated);
   Driven driven;
-  if (!Drive(folder, built, driven)) return false;
+  if (!Drive(folder, drop_s, built, driven)) return false;
   const double odometry_m = Ate_m(driven.mapper.graph(), driven.places);
+  const double mapped_loop_m = Loop_m(driven.mapper.graph(), driven.places);
   const auto start = Clock::now();
   const PolishResult polished = PolishMap(driven.mapper.graph());
   if (polished.usable) {
@@ -168,7 +197,7 @@ bool Run(const std::string& path, const tools::SimulateOptions& options, const s
   const Eigen::Isometry3d T_plan_map = StartAligned(map, driven.places);
   WallScore walls = ScoreWalls(built, MappedFaces(map, T_plan_map), map);
   PrintRow(std::filesystem::path(path).stem().string(), *simulated, odometry_m, Ate_m(map, driven.places), BestAte_m(map, driven.places),
-           walls, driven, polish_ms);
+           {mapped_loop_m, Loop_m(map, driven.places)}, walls, driven, polish_ms);
   return true;
 }
 
@@ -178,13 +207,18 @@ int main(int argc, char** argv) {
   tools::SimulateOptions options;
   options.min_duration_s = options.max_duration_s = 180;
   options.clutter = 10;
+  double drop_s = 0;
   std::vector<std::string> plans;
   for (int i = 1; i < argc; ++i) {
     const std::string argument = argv[i];
     const double value = i + 1 < argc ? std::strtod(argv[i + 1], nullptr) : 0;
-    if (!argument.starts_with("--")) { plans.push_back(argument); continue; }
+    if (!argument.starts_with("--")) {
+      plans.push_back(argument);
+      continue;
+    }
     ++i;
     if (argument == "--seconds") options.min_duration_s = options.max_duration_s = value;
+    if (argument == "--drop") drop_s = value;
     if (argument == "--noise") options.noise_m = value;
     if (argument == "--clutter") options.clutter = static_cast<int>(value);
     if (argument == "--seed") options.seed = static_cast<uint64_t>(value);
@@ -192,7 +226,7 @@ int main(int argc, char** argv) {
   const std::filesystem::path folder = std::filesystem::temp_directory_path() / fmt::format("plumb-map-benchmark-{}", getpid());
   PrintHead();
   bool fine = !plans.empty();
-  for (const std::string& plan : plans) fine = Run(plan, options, folder.string()) && fine;
+  for (const std::string& plan : plans) fine = Run(plan, options, drop_s, folder.string()) && fine;
   std::error_code ignored;
   std::filesystem::remove_all(folder, ignored);
   rusage usage{};

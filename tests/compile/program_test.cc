@@ -72,6 +72,25 @@ TEST_F(Program, StoreysAreOfTheirDrawingsHoweverThePathsAreWritten) {
   Write("upper.dxf", "999\nanother issue\n" + Read("upper.dxf"));
   ASSERT_EQ(Plumb(compile).status, 0);
   EXPECT_NE(hash(), before) << "the second drawing is another";
+  EXPECT_EQ(Plumb("compile --storey EG=ground.dxf@0 --storey OG=upper.dxf@2.8 -o two.agraph").status, 0) << "the drawings are named";
+  EXPECT_EQ(Plumb("compile -o two.agraph").status, 2);
+}
+
+TEST_F(Program, APlanWithAPlusInItsNameIsNotWrittenOver) {
+  fs::copy_file(PLUMB_SOURCE_DIR "/plans/house/ground.dxf", folder_ / "a + b.dxf");
+  const std::string drawing = Read("a + b.dxf");
+  ASSERT_EQ(Plumb("compile 'a + b.dxf' -o plus.agraph").status, 0);
+  EXPECT_EQ(Plumb("inspect plus.agraph --svg 'a + b.dxf'").status, 2);
+  EXPECT_EQ(Read("a + b.dxf"), drawing);
+}
+
+TEST_F(Program, DoctorTellsOfASimulationThatWasBrokenOff) {
+  ASSERT_EQ(Plumb("simulate house.agraph --duration 1 --max-duration 1 --deviate 0 -q -o whole").status, 0);
+  EXPECT_EQ(Plumb("doctor whole").status, 0);
+  Write("whole/truth.json", "{\"version\": 1, \"incomplete\": true}\n");
+  const Outcome broken_off = Plumb("doctor whole");
+  EXPECT_EQ(broken_off.status, 1);
+  EXPECT_THAT(broken_off.out, HasSubstr("broken off"));
 }
 
 TEST_F(Program, ValidateSaysTheSameInEveryFormat) {
@@ -142,7 +161,7 @@ TEST_F(Program, InspectWritesEveryForm) {
   EXPECT_THAT(Plumb("inspect house.agraph").out, HasSubstr("A - outside, 0.90 m wide"));
   const Outcome no_storey = Plumb("inspect house.agraph --svg other.svg --storey attic");
   EXPECT_EQ(no_storey.status, 2);
-  EXPECT_THAT(no_storey.err, HasSubstr("0 `Ground floor`"));
+  EXPECT_THAT(no_storey.err, HasSubstr("`Ground floor` (0)"));
   EXPECT_FALSE(fs::exists(folder_ / "other.svg"));
   EXPECT_EQ(Plumb("inspect house.agraph --nav2 map --resolution_m 0").status, 2);
 }

@@ -22,5 +22,20 @@ TEST(WallChanges, TheMissingWallOfTheFzkHouseIsFoundAndNothingIsMadeUp) {
   EXPECT_EQ(folder.Json("run/run.json").at("summary").at("missing_walls"), 1);
 }
 
+TEST(WallChanges, DoorwaysThatAreElsewhereOrNarrowerAreFound) {
+  const test::ProgramFolder folder("doorway_changes");
+  ASSERT_EQ(folder.Plumb("compile '" PLUMB_SOURCE_DIR "/plans/office_floor/plan.dxf' -o plan.agraph 2> compile.txt"), 0);
+  ASSERT_EQ(folder.Plumb("simulate plan.agraph --seed 11 --deviate 0 --doorways 70% --doorway-shift 0.05:0.3 --speed 0.8 --duration 45 "
+                         "--max-duration 45 -o rec/"),
+            0);
+  ASSERT_EQ(folder.Plumb("localize plan.agraph rec/ -o run/"), 0);
+  ASSERT_EQ(folder.Plumb("evaluate run/ --truth rec/ --json run/evaluation.json"), 0);
+  const auto evaluation = folder.Json("run/evaluation.json");
+  EXPECT_GE(evaluation.at("doorways_found"), 2);
+  EXPECT_EQ(evaluation.at("doorways_false"), 0);
+  EXPECT_EQ(evaluation.at("doorways_missed"), 0);
+  EXPECT_LT(evaluation.at("doorways_mean_error_m"), 0.01);
+}
+
 }  // namespace
 }  // namespace plumb

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <iterator>
 #include <limits>
-#include <map>
 #include <numbers>
 #include <set>
 
 #include "tools/drawing/section.h"
+#include "tools/drawing/undrawn_walls.h"
 
 namespace plumb::tools {
 namespace {
@@ -51,54 +51,22 @@ const char* CutClass(ElementKind kind) {
   }
 }
 
-constexpr double kDrawnShare = 0.5;  // of a wall, by its triangles; with less, most of its section does not close
-
-double AreaOf(const Ring& ring) {
-  double twice = 0;
-  for (size_t i = 0; i < ring.size(); ++i) {
-    const Vector2d &a = ring[i], &b = ring[(i + 1) % ring.size()];
-    twice += a.x() * b.y() - a.y() * b.x();
-  }
-  return 0.5 * twice;
-}
-
-// Of a straight wall at that height, its openings taken off.
-double SolidArea(const AGraph& g, WallId id, double z_m) {
-  const Wall& w = g.walls[id.index()];
-  double length_m = (w.axis_end - w.axis_start).norm();
-  const auto take_off = [&](const auto& openings) {
-    for (const auto& o : openings) {
-      if (o.wall == id && o.position.z() < z_m && z_m < o.position.z() + o.height_m) length_m -= o.width_m;
-    }
-  };
-  take_off(g.doorways);
-  take_off(g.windows);
-  return std::max(0.0, length_m) * w.thickness_m;
-}
-
-// Walls by their triangles; one whose solid does not close by its axis and thickness.
+// Walls by their triangles; where their solids do not close by axis and thickness.
 std::string DrawCut(const AGraph& g, StoreyId storey, const Sheet& sheet) {
   const double z_m = CutHeight(g, storey);
-  std::map<WallId, double> drawn_m2;
   std::string light, dark;
-  for (const ElementSection& section : CutAt(g, z_m)) {
-    const Element& element = g.elements[section.element];
-    const char* style = CutClass(element.kind);
+  const std::vector<SectionSegment> segments = SegmentsAt(g, z_m);
+  const std::vector<ElementSection> sections = ClosedSections(segments);
+  for (const ElementSection& section : sections) {
+    const char* style = CutClass(g.elements[section.element].kind);
     if (!style) continue;
     std::string data;
     for (const Ring& ring : section.rings) data += sheet.Closed(ring);
     const bool is_dark = std::string_view(style) == "cut";
     fmt::format_to(std::back_inserter(is_dark ? dark : light), "<path class=\"{}\" d=\"{}\"/>\n", style, data);
-    if (!element.wall.valid() || !is_dark) continue;
-    for (const Ring& ring : section.rings) drawn_m2[element.wall] += AreaOf(ring);
   }
-  for (size_t i = 0; i < g.walls.size(); ++i) {
-    const Wall& w = g.walls[i];
-    if (w.storey != storey || w.z_min_m > z_m || w.z_max_m < z_m || w.axis_start == w.axis_end) continue;
-    const auto drawn = drawn_m2.find(WallId(i));
-    if (drawn != drawn_m2.end() && drawn->second >= kDrawnShare * SolidArea(g, WallId(i), z_m)) continue;
-    fmt::format_to(std::back_inserter(dark), "<path class=\"cut\" d=\"{}\"/>\n", sheet.Closed(AxisRing(w)));
-  }
+  for (const Ring& piece : UndrawnWalls(g, storey, z_m, segments, sections))
+    fmt::format_to(std::back_inserter(dark), "<path class=\"cut\" d=\"{}\"/>\n", sheet.Closed(piece));
   return light + dark;
 }
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <iterator>
 #include <map>
 #include <numbers>
@@ -88,9 +87,7 @@ std::string DrawNorth(double true_north_rad, double x, double y) {
 
 std::string DrawTitle(const AGraph& graph, StoreyId storey, const Sheet& sheet, double x, double y) {
   const Storey& s = graph.storeys[storey.index()];
-  std::string file;
-  for (const std::string& path : SplitSourcePaths(graph.source_path))
-    file += std::string(file.empty() ? "" : kBetweenSourcePaths) + std::filesystem::path(path).filename().string();
+  const std::string file = SourceFileNames(graph.source_path);
   return fmt::format(
       "<text class=\"title\" x=\"{0}\" y=\"{1}\" font-size=\"42\" font-weight=\"600\">{2}</text>"
       "<text class=\"title\" x=\"{0}\" y=\"{3}\" font-size=\"24\">floor plan 1:{4:g}, storey at {5} m, cut {6:.2f} m above; measures in "

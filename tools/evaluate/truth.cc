@@ -49,7 +49,7 @@ Expected<Truth> ParseTruth(const std::string& json, const std::string& source) {
     if (root.at("version") != 1) return Fail(ErrorCode::kNotARecording, fmt::format("`{}` has another version than 1", source));
     Truth truth;
     truth.has_walls = true;
-    if (root.value("incomplete", false)) return Fail(ErrorCode::kNotARecording, fmt::format("`{}`: the simulation was broken off", source));
+    if (root.value("incomplete", false)) return Fail(ErrorCode::kNotARecording, fmt::format("`{}`: the simulation was broken off; simulate it again", source));
     if (const auto plan = root.find("plan"); plan != root.end()) truth.plan_source_sha256 = plan->value("sha256", "");
     for (const Json& wall : root.at("walls")) truth.walls.push_back(ParseWall(wall));
     for (const Json& m : root.value("missing", Json::array())) truth.missing.push_back({m.at("wall_guid"), m.at("rays_through")});

@@ -32,7 +32,7 @@ class Painter {
   explicit Painter(OccupancyMap& map) : map_(map) {}
 
   // Cells whose middle lies inside, even-odd over all rings.
-  void Fill(const std::vector<Ring>& rings, Cell value) {
+  void Fill(const std::vector<Ring>& rings, Occupancy value) {
     Eigen::AlignedBox2d box;
     for (const Ring& ring : rings) {
       for (const Vector2d& p : ring) box.extend(p);
@@ -43,7 +43,7 @@ class Painter {
   }
 
   // Every cell that the segment touches.
-  void Draw(const Vector2d& from, const Vector2d& to, Cell value) {
+  void Draw(const Vector2d& from, const Vector2d& to, Occupancy value) {
     Vector2d a = InCells(from), b = InCells(to);
     if (a.x() > b.x()) std::swap(a, b);
     const double slope = b.x() > a.x() ? (b.y() - a.y()) / (b.x() - a.x()) : 0;
@@ -63,7 +63,7 @@ class Painter {
   }
   [[nodiscard]] size_t Row(double y_m) const { return Index((y_m - map_.origin.y()) / map_.resolution_m, map_.rows); }
 
-  void FillRow(const std::vector<Ring>& rings, size_t row, Cell value) {
+  void FillRow(const std::vector<Ring>& rings, size_t row, Occupancy value) {
     const double y_m = map_.origin.y() + (static_cast<double>(row) + 0.5) * map_.resolution_m;
     std::vector<double> crossings;
     for (const Ring& ring : rings) {
@@ -105,7 +105,7 @@ Expected<OccupancyMap> EmptyMap(const AGraph& graph, StoreyId storey, const Occu
   map.origin = lo * step_m;
   map.columns = static_cast<size_t>(columns);
   map.rows = static_cast<size_t>(rows);
-  map.cells.assign(map.columns * map.rows, Cell::kUnknown);
+  map.cells.assign(map.columns * map.rows, Occupancy::kUnknown);
   return map;
 }
 
@@ -116,9 +116,9 @@ void DrawElements(const AGraph& graph, const std::vector<SectionSegment>& segmen
     const ElementKind kind = graph.elements[s.element].kind;
     if (kind == ElementKind::kDoor || kind == ElementKind::kGround || IsWall(kind) != walls) continue;
     chosen.push_back(s);
-    painter.Draw(s.from, s.to, Cell::kOccupied);
+    painter.Draw(s.from, s.to, Occupancy::kOccupied);
   }
-  for (const ElementSection& section : ClosedSections(chosen)) painter.Fill(section.rings, Cell::kOccupied);
+  for (const ElementSection& section : ClosedSections(chosen)) painter.Fill(section.rings, Occupancy::kOccupied);
 }
 
 // From one side of the wall to the other, clear of the jambs, which are occupied as far as they reach into their cells.
@@ -127,7 +127,7 @@ void OpenDoorway(const AGraph& graph, const Doorway& d, Painter& painter, double
   const Vector2d through(std::cos(d.yaw_rad), std::sin(d.yaw_rad)), along(-through.y(), through.x()), middle = d.position.head<2>();
   const Vector2d a = std::max(0.5 * d.width_m - 0.5 * resolution_m, 0.5 * resolution_m) * along,
                  b = (0.5 * thickness_m + resolution_m) * through;
-  painter.Fill({{middle - a - b, middle + a - b, middle + a + b, middle - a + b}}, Cell::kFree);
+  painter.Fill({{middle - a - b, middle + a - b, middle + a + b, middle - a + b}}, Occupancy::kFree);
 }
 
 }  // namespace
@@ -150,7 +150,7 @@ Expected<OccupancyMap> MakeOccupancyMap(const AGraph& graph, StoreyId storey, co
     if (r.storey != storey) continue;
     std::vector<Ring> rings = r.holes;
     rings.push_back(r.polygon);
-    painter.Fill(rings, Cell::kFree);
+    painter.Fill(rings, Occupancy::kFree);
   }
   const std::vector<SectionSegment> segments = SegmentsAt(graph, FloorHeight(graph, storey) + options.height_m);
   DrawElements(graph, segments, true, painter);

@@ -21,17 +21,17 @@ struct OccupancyOptions {
 };
 
 // Grey values as map_saver writes them and, with the thresholds of MapYaml, as map_server reads them.
-enum class Cell : uint8_t { kOccupied = 0, kUnknown = 205, kFree = 254 };
+enum class Occupancy : uint8_t { kOccupied = 0, kUnknown = 205, kFree = 254 };
 
 struct OccupancyMap {
   Eigen::Vector2d origin =
       Eigen::Vector2d::Zero();  // lower left corner of the lower left cell, plan frame, metres; a multiple of the resolution
   double resolution_m = 0;
   size_t columns = 0, rows = 0;
-  std::vector<Cell> cells;  // by row from the lowest y, as x and y grow
+  std::vector<Occupancy> cells;  // by row from the lowest y, as x and y grow
 
-  [[nodiscard]] Cell& at(size_t column, size_t row) { return cells[row * columns + column]; }
-  [[nodiscard]] Cell at(size_t column, size_t row) const { return cells[row * columns + column]; }
+  [[nodiscard]] Occupancy& at(size_t column, size_t row) { return cells[row * columns + column]; }
+  [[nodiscard]] Occupancy at(size_t column, size_t row) const { return cells[row * columns + column]; }
 };
 
 // Free: rooms and doorways, all doors standing open. Occupied: every cell that an element meets at that height over the storey's floor (the

@@ -20,7 +20,7 @@ bool EqualIgnoringCase(std::string_view a, std::string_view b) {
 std::string List(const AGraph& graph) {
   std::string out;
   for (size_t i = 0; i < graph.storeys.size(); ++i) {
-    fmt::format_to(std::back_inserter(out), "{}{} `{}`", i == 0 ? "" : ", ", i, graph.storeys[i].name);
+    fmt::format_to(std::back_inserter(out), "{}`{}` ({})", i == 0 ? "" : ", ", graph.storeys[i].name, i);
   }
   return out;
 }
@@ -43,7 +43,7 @@ Expected<StoreyId> FindStorey(const AGraph& graph, const std::string& name_or_nu
   const auto parsed = std::from_chars(name_or_number.data(), end, number);
   if (found.empty() && parsed.ec == std::errc() && parsed.ptr == end && number < graph.storeys.size()) return StoreyId(number);
   return Fail(ErrorCode::kBadOption,
-              fmt::format("{} storey is `{}`; there are {}", found.empty() ? "no" : "more than one", name_or_number, List(graph)));
+              fmt::format("{} storey is `{}`; the plan has {}", found.empty() ? "no" : "more than one", name_or_number, List(graph)));
 }
 
 StoreyId MainStorey(const AGraph& graph) {

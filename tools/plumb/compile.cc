@@ -84,7 +84,8 @@ Expected<std::vector<compiler::StoreyDrawing>> StoreysOf(const CompileFlags& fla
   for (const std::string& plan : flags.plans) {
     const bool used = std::any_of(out.begin(), out.end(), [&](const auto& s) { return IsSameFile(s.path, plan); });
     if (!used && (flags.plans.size() > 1 || !out.empty()))
-      return Fail(ErrorCode::kBadOption, fmt::format("`{}` is no storey; state --storey NAME={}@ELEVATION", plan, plan));
+      return Fail(ErrorCode::kBadOption,
+                  fmt::format("`{}`: of several drawings each is a storey; state --storey NAME={}@ELEVATION", plan, plan));
   }
   return out;
 }
@@ -95,10 +96,11 @@ compiler::CompileResult CompileWithin(const CompileFlags& flags, const std::vect
 }
 
 Status RunCompile(CompileFlags& flags, Session& session) {
-  flags.plan = flags.plans.front();
   if (const std::string wrong = flags.options.Check(); !wrong.empty()) return session.Fail({ErrorCode::kBadOption, InFlags(wrong)});
   const auto storeys = StoreysOf(flags);
   if (!storeys) return session.Fail(storeys.error());
+  if (flags.plans.empty() && storeys->empty()) return session.Fail({ErrorCode::kBadOption, "PLAN is required"});
+  flags.plan = flags.plans.empty() ? storeys->front().path : flags.plans.front();
   std::vector<std::string> inputs = flags.plans;
   for (const compiler::StoreyDrawing& storey : *storeys) inputs.push_back(storey.path);
   const auto apart = CheckOutputs({{"--output", flags.output}, {"--diagnostics-json", flags.diagnostics_json}}, inputs);
@@ -161,8 +163,7 @@ void AddCompile(CLI::App& app, Session& session) {
                     "Status 2: nothing is written: the file is damaged, too large, of no schema that is read, or has no building in it.");
   sub->add_option("PLAN", flags->plans,
                   "the plan: IFC (STEP), a drawing (DXF, SVG), a mesh (OBJ, PLY, STL, glTF, COLLADA) or a Gazebo world (SDF); plain, "
-                  "gzipped or in a ZIP archive")
-      ->required();
+                  "gzipped or in a ZIP archive; with --storey it need not be named again");
   sub->add_option("--storey", flags->storeys, "a drawing's storey and the height of its floor, m; once for each")
       ->type_name("NAME=FILE@ELEVATION")
       ->allow_extra_args(false);

@@ -5,9 +5,11 @@
 #include <filesystem>
 #include <iterator>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <vector>
 
 #include "runtime/sources/recording.h"
+#include "schema/files.h"
 #include "tools/plumb/command.h"
 
 namespace plumb::tools {
@@ -103,6 +105,14 @@ void ExamineOdometry(const runtime::Recording& recording, Examination& out) {
   }
 }
 
+// As `plumb simulate` leaves it when it is stopped.
+bool IsBrokenOff(const std::filesystem::path& truth) {
+  const auto text = ReadFileText(truth.string());
+  if (!text) return false;
+  const nlohmann::json root = nlohmann::json::parse(*text, nullptr, false);
+  return root.is_object() && root.value("incomplete", false);
+}
+
 Status RunDoctor(const std::string& folder, Session& session) {
   const auto recording = runtime::Recording::Open(folder);
   if (!recording) return session.Fail(recording.error());
@@ -110,6 +120,8 @@ Status RunDoctor(const std::string& folder, Session& session) {
   ExamineStamps(*recording, examination);
   ExamineScans(*recording, session.console, examination);
   ExamineOdometry(*recording, examination);
+  if (IsBrokenOff(std::filesystem::path(folder) / "truth.json"))
+    examination.findings.emplace_back("the simulation that wrote it was broken off: simulate it again");
   const bool has_truth = std::filesystem::exists(std::filesystem::path(folder) / "truth.tum");
   examination.facts += has_truth ? "truth      yes\n" : "truth      none: `plumb evaluate` needs it, nothing else does\n";
   session.console.Print(examination.facts);

@@ -65,7 +65,7 @@ Status RunInspect(const InspectFlags& flags, Session& session) {
   const Expected<AGraph> graph = std::move(*file).Load();
   if (!graph) return session.Fail(graph.error());
   std::vector<std::string> inputs = SplitSourcePaths(graph->source_path);
-  inputs.push_back(flags.path);
+  inputs.insert(inputs.end(), {graph->source_path, flags.path});  // the source as one path, too: ` + ` may stand in its name
   const auto apart = CheckOutputs({{"--svg", flags.svg}, {"--graphml", flags.graphml}}, inputs);
   if (!apart) return session.Fail(apart.error());
   StoreyId storey;

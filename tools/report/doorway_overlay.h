@@ -11,7 +11,7 @@ namespace plumb::tools {
 
 [[nodiscard]] std::string DoorwayStyle();
 
-// The opening as built, across its wall, of doorways that deviate; those that are walled up crossed out; with what is off beside them. The
+// The opening as built, across its wall where that stands, of doorways that deviate; those that are walled up crossed out; with what is off beside them. The
 // ids must exist in `plan`.
 [[nodiscard]] std::string DrawDoorways(const AGraph& plan, StoreyId storey, const Deviations& deviations, const Sheet& sheet);
 

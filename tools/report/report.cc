@@ -4,10 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <iterator>
 #include <set>
 
+#include "schema/source_paths.h"
 #include "tools/drawing/floor_plan.h"
 #include "tools/drawing/plan_sheet.h"
 #include "tools/drawing/room_labels.h"
@@ -254,7 +254,7 @@ Expected<std::string> RunToHtml(const AGraph& plan, const Run& run, const RunInf
                 fmt::format("the run's deviations name {}, which the plan does not have: it was made with another plan", id));
   }
   const std::vector<WallRow> rows = WallRows(plan, run.deviations);
-  const std::string title = EscapeXml(std::filesystem::path(info.plan_source).filename().string());
+  const std::string title = EscapeXml(SourceFileNames(info.plan_source));
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">\n"
       "<title>{0} as built</title>\n<style>\n{1}{2}{3}{4}</style></head>\n<body>\n<h1>{0}: as built against the plan</h1>\n"

@@ -17,7 +17,7 @@ namespace {
 constexpr double kMinWidth_m = 0.7;
 constexpr double kJamb_m = 0.10;      // of wall that stays beside an opening
 constexpr double kBeside_m = 0.02;    // the cut reaches this much beyond the farther of the planned and the built jamb
-constexpr double kMostNarrower = 0.2;  // of the planned width; likewise wider
+constexpr double kMostChange = 0.35;   // of the planned width, narrower or wider
 constexpr int kDraws = 12;
 
 // The frame of a doorway: u along the wall from the doorway's middle, w across it, z.
@@ -185,7 +185,7 @@ std::vector<DoorwayId> InnerDoorways(const AGraph& house, StoreyId storey, const
 DoorwayChange Draw(DoorwayId id, const Doorway& d, double largest_m, const SimulateOptions& options, Random& random) {
   const size_t kind = random.Index(3);
   const double shift_m = random.Sign() * random.Uniform(options.min_doorway_m, largest_m);
-  const double most_m = std::min(largest_m, kMostNarrower * d.width_m);
+  const double most_m = std::min(largest_m, kMostChange * d.width_m);
   const double width_m = random.Sign() * random.Uniform(std::min(options.min_doorway_m, most_m), most_m);
   return {id, kind == 1 ? 0 : shift_m, kind == 0 ? 0 : width_m};
 }

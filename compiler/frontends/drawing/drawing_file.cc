@@ -80,6 +80,14 @@ std::optional<double> DrawingFileOptions::GivenScale() const {
   return given ? std::optional(given->metres) : std::nullopt;
 }
 
+// A hint, where those that were told know little that another set knows.
+std::string BetterRules(const std::vector<LayerWeight>& layers, double known_ratio) {
+  constexpr double kMuchBetter = 0.2;
+  const LayerChoice choice = ChooseLayerRules(layers);
+  if (choice.confidence < known_ratio + kMuchBetter) return {};
+  return fmt::format("the set `{}` knows those of {:.0f} %; without --layers it is taken", choice.rules->name(), 100 * choice.confidence);
+}
+
 std::optional<LayerRules> RulesFor(const std::vector<LayerWeight>& layers, const DrawingFileOptions& options, DiagnosticSink& sink) {
   if (!options.layers.empty()) {
     Expected<LayerRules> rules = LoadLayerRules(options.layers);
@@ -91,7 +99,8 @@ std::optional<LayerRules> RulesFor(const std::vector<LayerWeight>& layers, const
       }
       sink.Emit(DiagnosticKind::kLayersGuessed, {},
                 fmt::format("layers are read by the rules `{}`, as told; they know those of {:.0f} % of what is drawn", rules->name(),
-                            all > 0 ? 100 * known / all : 0.0));
+                            all > 0 ? 100 * known / all : 0.0),
+                BetterRules(layers, all > 0 ? known / all : 0.0));
       return std::move(*rules);
     }
     sink.Emit(DiagnosticKind::kLayerRulesUnreadable, {}, rules.error().message);

@@ -106,7 +106,7 @@ DrawnSizes FirmSizes(const DrawnSizes& sizes, double metres) {
 }
 
 std::string DescribeSizes(const DrawnSizes& sizes, const LengthUnit& unit) {
-  std::string out = fmt::format("in {} the plan is {:.3g} m long", unit.name, sizes.extent * unit.metres);
+  std::string out = fmt::format("in {} the plan is {:.3g} m long", unit.name == "in" ? "inches" : unit.name, sizes.extent * unit.metres);
   if (sizes.wall > 0) out += fmt::format(", walls {:.2g} m thick", sizes.wall * unit.metres);
   if (sizes.door > 0) out += fmt::format(", doors {:.2g} m wide", sizes.door * unit.metres);
   return out;

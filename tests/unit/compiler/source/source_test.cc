@@ -120,6 +120,15 @@ TEST_F(SourceTest, ThePlanInAnArchiveIsRead) {
   EXPECT_TRUE(diagnostics_.all().empty());
 }
 
+TEST_F(SourceTest, APlanOfAnyKindInAnArchiveIsRead) {
+  const std::string drawing = "0\nSECTION\n2\nENTITIES\n0\nENDSEC\n0\nEOF\n";
+  const auto packed =
+      LoadSource(Write("b.zip", Zip({{"__MACOSX/._plan.dxf", "x"}, {"set/PLAN.DXF", drawing}, {"read.me", "hello"}})), diagnostics_);
+  ASSERT_TRUE(packed);
+  EXPECT_EQ(packed->format, SourceFormat::kDxf);
+  EXPECT_FALSE(LoadSource(Write("c.zip", Zip({{"a.dxf", drawing}, {"b.svg", "<svg/>"}})), diagnostics_)) << "which of them?";
+}
+
 TEST_F(SourceTest, ArchivesThatGiveNoPlanAreErrors) {
   const std::string text = "ISO-10303-21;" + std::string(1000, 'x');
   const std::string good = Zip({{"a.ifc", text}});

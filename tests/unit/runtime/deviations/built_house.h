@@ -84,7 +84,9 @@ inline Survey DriveThrough(const AGraph& plan, const AGraph& as_built) {
   runtime::Mapper mapper;
   for (double t = 0; t < drive.duration_s(); t += kPeriod_s) {
     const Eigen::Isometry3d T = drive.At(t);
-    mapper.AddScan(lidar.Sweep([&](double) { return T; }, t), T_plan_map.inverse() * T);
+    runtime::Scan scan = lidar.Sweep([&](double) { return T; }, t);
+    scan.time_s.clear();  // it stood still meanwhile
+    mapper.AddScan(scan, T_plan_map.inverse() * T);
   }
   mapper.Flush();
   Survey out;

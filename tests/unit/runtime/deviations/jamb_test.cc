@@ -125,6 +125,38 @@ TEST(EstimateJamb, FacesThatEndAtDifferentPlacesAreNoJamb) {
   EXPECT_FALSE(EstimateJamb(view.evidence, 0).known);
 }
 
+TEST(EstimateJamb, CoarseSigmasDoNotPushIt) {
+  JambEvidence evidence(0.5, 0.5);  // evenly spread, sharp, and taken for much coarser
+  for (uint32_t k = 0; k < 60; ++k) {
+    const double phase = (k % 12) / 12.0;
+    for (int i = 0; i < 25; ++i) evidence.AddPassed(kJamb_m + 0.012 * (i + phase), 0.015, k);
+    for (int i = 0; i < 10; ++i) evidence.AddFace(0, kJamb_m - 0.036 * (i + phase), 0.015, k);
+  }
+  EXPECT_NEAR(EstimateJamb(evidence, 0).x_m, kJamb_m, 0.006);
+}
+
+TEST(EstimateJamb, SaysWhetherTheRevealIsSeenThere) {
+  View reveal, casing;
+  for (View* view : {&reveal, &casing}) {
+    view->Face(0, 0.02, 20);
+    view->Face(1, 0.02, 20);
+    view->Passed(0.01, 20);
+  }
+  reveal.Inside(60, kJamb_m, 0.006);
+  casing.Inside(60, kJamb_m - 0.06, 0.006);
+  EXPECT_TRUE(EstimateJamb(reveal.evidence, 0).on_reveal);
+  EXPECT_FALSE(EstimateJamb(casing.evidence, 0).on_reveal);
+}
+
+TEST(ConfirmJamb, HoldsWhereLinesPassUpToItAndNotBeyond) {
+  View view;
+  view.Passed(0.01, 20);
+  EXPECT_TRUE(ConfirmJamb(view.evidence, kJamb_m, 0.004).known);
+  EXPECT_FALSE(ConfirmJamb(view.evidence, kJamb_m + 0.15, 0.004).known) << "lines pass behind it";
+  EXPECT_FALSE(ConfirmJamb(view.evidence, kJamb_m - 0.10, 0.004).known) << "nothing passes beside it";
+  EXPECT_FALSE(ConfirmJamb(view.evidence, kJamb_m, 0.05).known);
+}
+
 TEST(JambOptions, NamesTheFieldThatIsWrong) {
   EXPECT_EQ(JambOptions().Check(), "");
   JambOptions options;

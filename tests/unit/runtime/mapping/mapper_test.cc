@@ -293,5 +293,27 @@ TEST(MapperOptions, CheckNamesTheField) {
   EXPECT_THAT(options.Check(), ::testing::HasSubstr("MapperOptions.plane_sigma_m = 3"));
 }
 
+// Deskewing moves the points; lines of sight begin where the sensor was when it fired.
+TEST(Mapper, StandpointsFollowTheSensorThroughASweep) {
+  constexpr int kPoints = 800;
+  Mapper mapper;
+  for (int k = 0; k < 2; ++k) {
+    Scan scan;
+    scan.stamp_s = kPeriod_s * k;
+    for (int i = 0; i < kPoints; ++i) {
+      const double angle_rad = 2 * std::numbers::pi * i / kPoints;
+      scan.points.emplace_back(3 * std::cos(angle_rad), 3 * std::sin(angle_rad), 0.1 * k);
+      scan.time_s.push_back(static_cast<float>(0.1 * i / kPoints));
+    }
+    mapper.AddScan(scan, Eigen::Isometry3d(Eigen::Translation3d(k * kPeriod_s, 0, 0)));  // 1 m/s
+  }
+  mapper.Flush();
+  ASSERT_EQ(mapper.graph().keyframes.size(), 1u);
+  const std::vector<Keyframe::Standpoint>& standpoints = mapper.graph().keyframes[0].standpoints;
+  ASSERT_GE(standpoints.size(), 9u);
+  EXPECT_NEAR(standpoints.back().sensor.x(), kPeriod_s + 0.1, 0.01);
+  EXPECT_NEAR(standpoints.back().sensor.x() - standpoints[standpoints.size() - 2].sensor.x(), 0.1 / 8, 1e-4);
+}
+
 }  // namespace
 }  // namespace plumb::runtime

@@ -78,5 +78,39 @@ TEST(RelativeCovariances, AreInfiniteWhereNoPathLeads) {
   EXPECT_TRUE(std::isinf(covariances[2](0, 0)));
 }
 
+TEST(SpatialPoseGraph, CovarianceGrowsAlongTheChainAndALoopEndsIt) {
+  std::vector<Keyframe> keyframes(11);
+  std::vector<SpatialEdge> edges;
+  for (uint32_t i = 0; i < keyframes.size(); ++i) {
+    keyframes[i].id = i;
+    keyframes[i].T_map_kf.translation().x() = i;
+    if (i > 0) edges.push_back({i - 1, i, Between(keyframes[i - 1].T_map_kf, keyframes[i].T_map_kf), 1e-4 * Matrix6d::Identity(), false});
+  }
+  const std::vector<Matrix6d> open = RelativeCovariances(keyframes, edges, 0);
+  for (int i = 1; i < 11; ++i) {
+    EXPECT_NEAR(open[i](2, 2), i * 1e-4, 1e-12);
+    EXPECT_NEAR(open[i](3, 3), i * 1e-4, 1e-12);
+    double across = 0;  // every step's heading moves the end by its lever
+    for (int k = 1; k <= i; ++k) across += 1e-4 * (1 + (i - k) * (i - k));
+    EXPECT_NEAR(open[i](4, 4), across, 1e-12);
+  }
+  edges.push_back({0, 10, keyframes[10].T_map_kf, 1e-4 * Matrix6d::Identity(), true});
+  EXPECT_NEAR(RelativeCovariances(keyframes, edges, 0)[10](4, 4), 1e-4, 1e-12);
+}
+
+TEST(SpatialPoseGraph, MergedKeyframesGoWhereTheirRootGoes) {
+  std::vector<Keyframe> keyframes(3);
+  for (uint32_t i = 0; i < 3; ++i) {
+    keyframes[i].id = i;
+    keyframes[i].T_map_kf = Eigen::Translation3d(i, 0, 0) * Eigen::AngleAxisd(0.1 * i, Eigen::Vector3d::UnitZ());
+  }
+  keyframes[2].merged = Keyframe::Merged{1, Between(keyframes[1].T_map_kf, keyframes[2].T_map_kf)};
+  const Eigen::Isometry3d T_0_2 = Eigen::Translation3d(0, 0.5, 0) * keyframes[2].T_map_kf;
+  const std::vector<SpatialEdge> edges = {{0, 2, T_0_2, 1e-4 * Matrix6d::Identity(), false}};
+  const std::vector<Eigen::Isometry3d> solved = SolvePoseGraph(keyframes, edges);
+  EXPECT_TRUE(solved[2].isApprox(T_0_2, 1e-6));
+  EXPECT_TRUE((solved[1] * keyframes[2].merged->T_into_kf).isApprox(solved[2], 1e-9));
+}
+
 }  // namespace
 }  // namespace plumb::runtime

@@ -57,6 +57,31 @@ TEST(AssessOnWalls, MeasuresTheScale) {
   EXPECT_LT(fit.sigma_scale, 0.01);
 }
 
+TEST(AssessOnWalls, IsTheLessSureTheRougherTheMap) {
+  const AGraph house = test::MakeHouse();
+  const PlanIndex plan(house);
+  MapView view = ViewMap(MakeSyntheticMap(house, OnTour(test::kWholeHouse, UprightPose(0, 0, 0, 0))), MatcherOptions());
+  view.wall_sigma_m = 0.02;
+  const WallFit fine = AssessOnWalls(plan, view, TruePose(view));
+  view.wall_sigma_m = 0.035;
+  const WallFit rough = AssessOnWalls(plan, view, TruePose(view));
+  EXPECT_NEAR(rough.sigma_scale, 1.75 * fine.sigma_scale, 0.01 * fine.sigma_scale);
+  EXPECT_LT((1.75 * 1.75 * rough.information - fine.information).norm(), 1e-6 * fine.information.norm());
+}
+
+// What the noise alone explains holds the pose, but is no plane that tells this place from others.
+TEST(AssessOnWalls, CountsNoMorePlanesInARoughMap) {
+  const AGraph house = test::MakeHouse();
+  const PlanIndex plan(house);
+  AGraph built = house;
+  test::DeviateWall(built, WallId(1), 0.08, 0);
+  MapView view = ViewMap(MakeSyntheticMap(built, OnTour(test::kWholeHouse, UprightPose(0, 0, 0, 0))), MatcherOptions());
+  for (const double sigma_m : {0.02, 0.035}) {
+    view.wall_sigma_m = sigma_m;
+    EXPECT_EQ(AssessOnWalls(plan, view, TruePose(view)).consistent_planes, 7);
+  }
+}
+
 TEST(AssessOnWalls, HasNoInformationWhereNoMajorityOfWallsAgrees) {
   // Two walls across x, one of them moved: either may be the one as planned.
   const AGraph box = test::MakeGridPlan({0, 5}, {0, 4}, {});

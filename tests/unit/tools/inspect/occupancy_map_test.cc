@@ -19,7 +19,7 @@ OccupancyMap MapOf(const AGraph& graph, const OccupancyOptions& options = {}) {
 }
 
 // As map_server turns a pose into a cell.
-Cell CellAt(const OccupancyMap& map, double x_m, double y_m) {
+Occupancy CellAt(const OccupancyMap& map, double x_m, double y_m) {
   const auto column = static_cast<size_t>(std::floor((x_m - map.origin.x()) / map.resolution_m));
   const auto row = static_cast<size_t>(std::floor((y_m - map.origin.y()) / map.resolution_m));
   EXPECT_LT(column, map.columns);
@@ -29,47 +29,47 @@ Cell CellAt(const OccupancyMap& map, double x_m, double y_m) {
 
 TEST(OccupancyMap, RoomsAreFreeWallsOccupiedTheRestUnknown) {
   const OccupancyMap map = MapOf(test::MakeHouse());
-  EXPECT_EQ(CellAt(map, 1, 1), Cell::kFree);          // room A
-  EXPECT_EQ(CellAt(map, 7, 3), Cell::kFree);          // room C
-  EXPECT_EQ(CellAt(map, -0.15, 5), Cell::kOccupied);  // within the west wall
-  EXPECT_EQ(CellAt(map, 5, 5), Cell::kOccupied);      // within the middle wall
-  EXPECT_EQ(CellAt(map, 8.7, 0.2), Cell::kOccupied);  // the chimney
-  EXPECT_EQ(CellAt(map, -0.6, 3), Cell::kUnknown);
-  EXPECT_EQ(CellAt(map, 4, -0.5), Cell::kUnknown);
+  EXPECT_EQ(CellAt(map, 1, 1), Occupancy::kFree);          // room A
+  EXPECT_EQ(CellAt(map, 7, 3), Occupancy::kFree);          // room C
+  EXPECT_EQ(CellAt(map, -0.15, 5), Occupancy::kOccupied);  // within the west wall
+  EXPECT_EQ(CellAt(map, 5, 5), Occupancy::kOccupied);      // within the middle wall
+  EXPECT_EQ(CellAt(map, 8.7, 0.2), Occupancy::kOccupied);  // the chimney
+  EXPECT_EQ(CellAt(map, -0.6, 3), Occupancy::kUnknown);
+  EXPECT_EQ(CellAt(map, 4, -0.5), Occupancy::kUnknown);
 }
 
 TEST(OccupancyMap, DoorsStandOpen) {
   const OccupancyMap map = MapOf(test::MakeHouse());
-  for (double x = -0.3; x < 0.1; x += 0.02) EXPECT_EQ(CellAt(map, x, 1.65), Cell::kFree) << x;  // D3 has a leaf
-  for (double y = 3.3; y < 3.7; y += 0.02) EXPECT_EQ(CellAt(map, 2.45, y), Cell::kFree) << y;
-  EXPECT_EQ(CellAt(map, -0.15, 1.15), Cell::kOccupied);  // beside the opening
+  for (double x = -0.3; x < 0.1; x += 0.02) EXPECT_EQ(CellAt(map, x, 1.65), Occupancy::kFree) << x;  // D3 has a leaf
+  for (double y = 3.3; y < 3.7; y += 0.02) EXPECT_EQ(CellAt(map, 2.45, y), Occupancy::kFree) << y;
+  EXPECT_EQ(CellAt(map, -0.15, 1.15), Occupancy::kOccupied);  // beside the opening
   // One that the wall's solid does not leave open.
   AGraph house = test::MakeHouse();
   test::AddDoorway(house, "D4", WallId(1), RoomId(2), RoomId(), {9.15, 3}, 0, true);
-  EXPECT_EQ(CellAt(MapOf(house), 9.15, 3), Cell::kFree);
-  EXPECT_EQ(CellAt(map, 9.15, 3), Cell::kOccupied);
+  EXPECT_EQ(CellAt(MapOf(house), 9.15, 3), Occupancy::kFree);
+  EXPECT_EQ(CellAt(map, 9.15, 3), Occupancy::kOccupied);
 }
 
 TEST(OccupancyMap, IsCutAtTheSensorsHeight) {
   AGraph house = test::MakeHouse();
   test::AddBox(house, {6.5, 2, 0}, {7.5, 3, 0.75}, test::AddElement(house, "table", ElementKind::kFurniture));
-  EXPECT_EQ(CellAt(MapOf(house, {.height_m = 0.5}), 7, 2.5), Cell::kOccupied);
-  EXPECT_EQ(CellAt(MapOf(house, {.height_m = 1.0}), 7, 2.5), Cell::kFree);
-  EXPECT_EQ(CellAt(MapOf(house, {.height_m = 2.3}), 0, 1.65), Cell::kFree);  // a doorway stays one above its lintel
+  EXPECT_EQ(CellAt(MapOf(house, {.height_m = 0.5}), 7, 2.5), Occupancy::kOccupied);
+  EXPECT_EQ(CellAt(MapOf(house, {.height_m = 1.0}), 7, 2.5), Occupancy::kFree);
+  EXPECT_EQ(CellAt(MapOf(house, {.height_m = 2.3}), 0, 1.65), Occupancy::kFree);  // a doorway stays one above its lintel
 }
 
 TEST(OccupancyMap, HeightCountsFromTheRoomsFloor) {
   AGraph house = test::MakeHouse();
   test::AddBox(house, {6.5, 2, 0}, {7.5, 3, 0.75}, test::AddElement(house, "table", ElementKind::kFurniture));
   for (Room& r : house.rooms) r.floor_z_m = 0.5;
-  EXPECT_EQ(CellAt(MapOf(house, {.height_m = 0.5}), 7, 2.5), Cell::kFree);
+  EXPECT_EQ(CellAt(MapOf(house, {.height_m = 0.5}), 7, 2.5), Occupancy::kFree);
 }
 
 TEST(OccupancyMap, AWallThinnerThanACellIsNotLost) {
   AGraph house = test::MakeHouse();
   test::AddBox(house, {6, 1.001, 0}, {8, 1.004, 2}, test::AddElement(house, "pane", ElementKind::kWindow));
   const OccupancyMap map = MapOf(house, {.resolution_m = 0.1});
-  for (double x = 6.05; x < 8; x += 0.1) EXPECT_EQ(CellAt(map, x, 1.0025), Cell::kOccupied) << x;
+  for (double x = 6.05; x < 8; x += 0.1) EXPECT_EQ(CellAt(map, x, 1.0025), Occupancy::kOccupied) << x;
 }
 
 TEST(OccupancyMap, SlantedLinesHaveNoHoles) {
@@ -82,8 +82,8 @@ TEST(OccupancyMap, SlantedLinesHaveNoHoles) {
   house.mesh.triangles.push_back({base, base + 1, base + 2, element});
   house.mesh.triangles.push_back({base, base + 2, base + 3, element});
   const OccupancyMap map = MapOf(house);
-  for (double t = 0; t <= 1; t += 0.002) EXPECT_EQ(CellAt(map, 6.03 + t * 0.68, 1.02 + t * 3.31), Cell::kOccupied) << t;
-  EXPECT_EQ(CellAt(map, 6.2, 3.5), Cell::kFree);
+  for (double t = 0; t <= 1; t += 0.002) EXPECT_EQ(CellAt(map, 6.03 + t * 0.68, 1.02 + t * 3.31), Occupancy::kOccupied) << t;
+  EXPECT_EQ(CellAt(map, 6.2, 3.5), Occupancy::kFree);
 }
 
 TEST(OccupancyMap, LiesWhereThePlanDoesFarFromZero) {
@@ -97,8 +97,8 @@ TEST(OccupancyMap, LiesWhereThePlanDoesFarFromZero) {
   }
   for (Doorway& d : house.doorways) d.position.head<2>() += far;
   const OccupancyMap map = MapOf(house), here = MapOf(test::MakeHouse());
-  EXPECT_EQ(CellAt(map, far.x() + 1, far.y() + 1), Cell::kFree);
-  EXPECT_EQ(CellAt(map, far.x() - 0.15, far.y() + 5), Cell::kOccupied);
+  EXPECT_EQ(CellAt(map, far.x() + 1, far.y() + 1), Occupancy::kFree);
+  EXPECT_EQ(CellAt(map, far.x() - 0.15, far.y() + 5), Occupancy::kOccupied);
   EXPECT_NEAR(map.origin.x() - here.origin.x(), far.x(), 0.0501);
 }
 
@@ -114,7 +114,7 @@ TEST(OccupancyMap, FilesAreAsMapServerReadsThem) {
   for (size_t row = 0; row < map.rows; row += 7) {
     for (size_t column = 0; column < map.columns; column += 5) {
       const double occupied = (255 - pixel(column, row)) / 255.0;
-      const Cell read = occupied > 0.65 ? Cell::kOccupied : occupied < 0.196 ? Cell::kFree : Cell::kUnknown;
+      const Occupancy read = occupied > 0.65 ? Occupancy::kOccupied : occupied < 0.196 ? Occupancy::kFree : Occupancy::kUnknown;
       EXPECT_EQ(read, map.at(column, row));
     }
   }

@@ -29,7 +29,7 @@ TEST(FindStorey, RefusesWhatIsNoneOrNotOne) {
     const auto found = FindStorey(g, name);
     ASSERT_FALSE(found) << name;
     EXPECT_EQ(found.error().code, ErrorCode::kBadOption);
-    EXPECT_THAT(found.error().message, ::testing::HasSubstr("1 `First floor`"));
+    EXPECT_THAT(found.error().message, ::testing::HasSubstr("`First floor` (1)"));
   }
 }
 

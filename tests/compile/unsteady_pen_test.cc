@@ -25,11 +25,26 @@ struct PenLine {
 // 8 m by 5 m with a wall between two rooms, a doorway in it and one to the outside; each side of the walls is a line of its own.
 std::vector<PenLine> TwoRooms(double thickness_m) {
   const double t = thickness_m, w = 8, h = 5, x = 4, out = 1, in = 2;
-  const std::vector<Eigen::Vector2d> corners = {
-      {0, 0},           {out, 0},           {out, t},         {t, t},          {t, h - t},
-      {x, h - t},       {x, in + kDoor_m},  {x + t, in + kDoor_m}, {x + t, h - t}, {w - t, h - t},
-      {w - t, t},       {x + t, t},         {x + t, in},      {x, in},         {x, t},
-      {out + kDoor_m, t}, {out + kDoor_m, 0}, {w, 0},         {w, h},          {0, h}};
+  const std::vector<Eigen::Vector2d> corners = {{0, 0},
+                                                {out, 0},
+                                                {out, t},
+                                                {t, t},
+                                                {t, h - t},
+                                                {x, h - t},
+                                                {x, in + kDoor_m},
+                                                {x + t, in + kDoor_m},
+                                                {x + t, h - t},
+                                                {w - t, h - t},
+                                                {w - t, t},
+                                                {x + t, t},
+                                                {x + t, in},
+                                                {x, in},
+                                                {x, t},
+                                                {out + kDoor_m, t},
+                                                {out + kDoor_m, 0},
+                                                {w, 0},
+                                                {w, h},
+                                                {0, h}};
   std::vector<PenLine> lines;
   for (size_t i = 0; i < corners.size(); ++i) {
     const Eigen::Vector2d &a = corners[i], &b = corners[(i + 1) % corners.size()];

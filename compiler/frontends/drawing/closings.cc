@@ -14,7 +14,7 @@ class Closer {
  public:
   Closer(const LineMap& map, const MassOptions& options) : map_(map), options_(options), ends_(LooseEnds(map)) {}
 
-  std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> Run() {
+  Closings Run() {
     ExtendToLines();
     JoinNearest(options_.max_thickness_m, [&](const LooseEnd& a, const LooseEnd& b) {
       const Eigen::Vector2d d = b.at - a.at;
@@ -23,7 +23,7 @@ class Closer {
     });
     CapAtCorners();
     JoinNearest(options_.max_break_m, [](const LooseEnd&, const LooseEnd&) { return true; });
-    return std::move(lines_);
+    return std::move(out_);
   }
 
  private:
@@ -34,7 +34,8 @@ class Closer {
       const std::optional<RayHit> hit = map_.Cast(e.at, e.out, reach, other);
       if (!hit) continue;
       e.used = true;
-      lines_.emplace_back(e.at, e.at + (hit->t_m + options_.join_m) * e.out);
+      out_.lines.emplace_back(e.at, e.at + (hit->t_m + options_.join_m) * e.out);
+      out_.joined.push_back({e.at, e.at + hit->t_m * e.out, {}, SourceOf(e.edge), SourceOf(hit->edge)});
     }
   }
 
@@ -59,9 +60,18 @@ class Closer {
       const uint32_t j = nearest[i];
       if (j == kNone || j < i || nearest[j] != i || ends_[i].used || ends_[j].used) continue;
       ends_[i].used = ends_[j].used = true;
-      lines_.emplace_back(ends_[i].at, ends_[j].at);
+      out_.lines.emplace_back(ends_[i].at, ends_[j].at);
+      if (Face(ends_[i], ends_[j])) out_.joined.push_back({ends_[i].at, ends_[j].at, {}, SourceOf(ends_[i].edge), SourceOf(ends_[j].edge)});
     }
   }
+
+  // Both go on towards where the other ends, as at a break or a corner that is left out; the two lines of a wall's open end do not.
+  static bool Face(const LooseEnd& a, const LooseEnd& b) {
+    const Eigen::Vector2d d = (b.at - a.at).normalized();
+    return a.out.dot(d) > kSquare && -b.out.dot(d) > kSquare;
+  }
+
+  uint32_t SourceOf(uint32_t edge) const { return map_.edges()[edge].source; }
 
   // The other line of the wall ends beside this one as well, but another wall goes on from there.
   void CapAtCorners() {
@@ -79,7 +89,7 @@ class Closer {
       });
       if (best.second == kNone || e.length_m < 0.5 * best.first) continue;
       e.used = true;
-      lines_.emplace_back(e.at, map_.vertices()[best.second]);
+      out_.lines.emplace_back(e.at, map_.vertices()[best.second]);
     }
   }
 
@@ -95,12 +105,12 @@ class Closer {
   const LineMap& map_;
   const MassOptions& options_;
   std::vector<LooseEnd> ends_;
-  std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> lines_;
+  Closings out_;
 };
 
 }  // namespace
 
-std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> FindClosings(const LineMap& map, const MassOptions& options) {
+Closings FindClosings(const LineMap& map, const MassOptions& options) {
   return Closer(map, options).Run();
 }
 

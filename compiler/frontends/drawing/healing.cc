@@ -92,9 +92,23 @@ class Healer {
     // That line's end was led to this one: they meet.
     if (c.other == kNone && met_.contains({c.edge, e.edge})) return;
     e.used = true;
-    if (c.other != kNone) ends_[c.other].used = true;
     met_.insert({e.edge, c.edge});
-    heals_.push_back({e.at, c.other == kNone ? PlaceOn(c) : c.at, map_.edges()[e.edge].source, map_.edges()[c.edge].source});
+    Heal heal = c.other == kNone ? Heal{e.at, PlaceOn(c), {}} : Meet(c);
+    heal.path = map_.edges()[e.edge].source;
+    heal.other = map_.edges()[c.edge].source;
+    heals_.push_back(std::move(heal));
+  }
+
+  // Where both go straight on to, so that neither turns, if that is no farther than either may be led; else the longer line's end.
+  Heal Meet(const Candidate& c) {
+    const LooseEnd &e = ends_[c.end], &o = ends_[c.other];
+    ends_[c.other].used = true;
+    if (std::abs(e.out.dot(o.out)) < kParallel) {
+      const Eigen::Vector2d at = e.at + Cross(o.at - e.at, o.out) / Cross(e.out, o.out) * e.out;
+      const double farthest_m = std::max((at - e.at).norm(), (at - o.at).norm());
+      if (farthest_m <= std::min(reach_m_[c.end], reach_m_[c.other])) return {e.at, at, o.at};
+    }
+    return e.length_m > o.length_m ? Heal{o.at, e.at, e.at} : Heal{e.at, o.at, o.at};
   }
 
   // Straight on where that is no farther than it may be.

@@ -63,7 +63,8 @@ class LineMap {
 
   // The first edge for which keep(edge) holds on the way from `origin` along the unit vector `direction`.
   template <class Keep>
-  [[nodiscard]] std::optional<RayHit> Cast(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction, double max_m, const Keep& keep) const;
+  [[nodiscard]] std::optional<RayHit> Cast(const Eigen::Vector2d& origin, const Eigen::Vector2d& direction, double max_m,
+                                           const Keep& keep) const;
   [[nodiscard]] uint32_t FaceAt(const Eigen::Vector2d& p) const;
   // Calls visit(edge) for edges whose boxes meet `box`, in no order that matters.
   template <class Visit>

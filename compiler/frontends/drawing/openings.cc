@@ -1,10 +1,7 @@
 #include "compiler/frontends/drawing/openings.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <set>
 
 #include "compiler/frontends/drawing/curved_openings.h"
@@ -39,7 +36,8 @@ struct Gap {
 class OpeningFinder {
  public:
   OpeningFinder(const Drawing& drawing, const std::vector<uint32_t>& paths, const Outline& outline, const OpeningOptions& options)
-      : drawing_(drawing), paths_(paths), outline_(outline), options_(options), curves_(outline, options), symbols_(drawing, paths, options), leaves_(drawing, paths, options) {
+      : drawing_(drawing), paths_(paths), outline_(outline), options_(options), curves_(outline, options),
+        symbols_(drawing, paths, options), leaves_(drawing, paths, options) {
     std::vector<Eigen::AlignedBox2d> boxes;
     for (const DrawnSpace& space : drawing.spaces) boxes.push_back(BoxOf(space.outline));
     rooms_ = BoxTree<2>(std::move(boxes));
@@ -336,31 +334,6 @@ class OpeningFinder {
 };
 
 }  // namespace
-
-std::string OpeningOptions::Check() const {
-  if (!(min_width_m > 0)) return fmt::format("OpeningOptions.min_width_m = {}; must be positive", min_width_m);
-  if (!(max_bare_gap_m >= 0)) return fmt::format("OpeningOptions.max_bare_gap_m = {}; must not be negative", max_bare_gap_m);
-  return {};
-}
-
-Eigen::Vector2d DrawnOpening::middle() const {
-  const Eigen::Vector2d chord = 0.5 * (from + to);
-  return curve ? PointAt(*curve, AngleAt(*curve, chord)) : chord;
-}
-
-Eigen::Vector2d DrawnOpening::Local(const Eigen::Vector2d& p) const {
-  const Eigen::Vector2d offset = p - middle();
-  if (!curve) return {along().dot(offset), Cross(along(), offset)};
-  const double turn = Cross(from - curve->center, to - curve->center) > 0 ? 1 : -1;  // the centre is on the left if it is 1
-  const double angle_rad = Nearest(AngleAt(*curve, p), AngleAt(*curve, middle())) - AngleAt(*curve, middle());
-  return {turn * angle_rad * curve->radius_m, turn * (curve->radius_m - (p - curve->center).norm())};
-}
-
-bool IsSwing(const Arc& arc, const OpeningOptions& options) {
-  const double sweep = std::abs(arc.sweep_rad);
-  return sweep > std::numbers::pi / 6 && sweep < 2 * std::numbers::pi / 3 && arc.radius_m >= options.min_swing_radius_m &&
-         arc.radius_m <= options.max_swing_radius_m;
-}
 
 std::vector<DrawnOpening> FindOpenings(const Drawing& drawing, const std::vector<uint32_t>& symbols, const Outline& outline,
                                        const OpeningOptions& options) {

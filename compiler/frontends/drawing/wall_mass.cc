@@ -14,6 +14,7 @@
 #include "compiler/frontends/drawing/plane.h"
 #include "compiler/frontends/drawing/single_lines.h"
 #include "compiler/geometry/box_tree.h"
+#include "compiler/geometry/cell_lists.h"
 #include "compiler/geometry/for_each_job.h"
 #include "schema/polygon.h"
 
@@ -24,8 +25,10 @@ constexpr uint32_t kClosing = 0xfffffffeu;  // source of a line that the drawing
 constexpr double kBeside_m = 0.02;   // from a room's outline into the room
 constexpr double kAround_m = 0.1;    // ... to the walls around it
 constexpr double kSampled_m = 0.4;  // between points where a face is measured
+constexpr double kFreeShare = 0.75;  // of a wall's boundary: all but a short side and half of a long one
 constexpr int kMaxSamples = 40;     // on one side of it
 constexpr double kOff_m = 1e-4;  // from a line into the face beside it
+constexpr int kHealRounds = 3;   // a line whose end was led elsewhere leaves others beside it
 constexpr size_t kMinParallel = 1 << 15;  // half-edges to measure
 
 struct WeightedLength {
@@ -86,14 +89,47 @@ class MassFinder {
     return map.has_value();
   }
 
+  bool IsOfCurve(uint32_t source) const {
+    return source < drawing_.paths.size() && (drawing_.paths[source].curved || !drawing_.paths[source].arcs.empty());
+  }
+
+  // Moves the ends rather than adding lines: a stub of millimetres beside a corner would be a side of the wall. A curve keeps its shape.
+  void LeadEnds(const std::vector<Heal>& heals) {
+    std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> moves;
+    for (const Heal& heal : heals) {
+      moves.emplace_back(heal.from, heal.to);
+      if (heal.mate) moves.emplace_back(*heal.mate, heal.to);
+    }
+    CellLists froms(options_.join_m);
+    for (const auto& [from, to] : moves) froms.Add(from);
+    std::vector<MapLine> stubs;
+    for (MapLine& line : lines_) {
+      for (Eigen::Vector2d* end : {&line.a, &line.b}) {
+        auto found = static_cast<uint32_t>(moves.size());
+        froms.ForEachNear(*end, [&](uint32_t i) {
+          if (i < found && (moves[i].first - *end).norm() <= options_.join_m) found = i;
+        });
+        if (found == moves.size()) continue;
+        if (IsOfCurve(line.source)) stubs.push_back({*end, moves[found].second, kClosing});
+        else *end = moves[found].second;
+      }
+    }
+    lines_.insert(lines_.end(), stubs.begin(), stubs.end());
+  }
+
   // False: too many crossings.
   bool Close() {
-    out_.heals = FindHeals(Map(), options_);
-    for (const Heal& heal : out_.heals) lines_.push_back({heal.from, heal.to, kClosing});
-    if (!out_.heals.empty() && !Build()) return false;
-    const auto closings = FindClosings(Map(), options_);
-    for (const auto& [from, to] : closings) lines_.push_back({from, to, kClosing});
-    return closings.empty() || Build();
+    for (int round = 0; round < kHealRounds; ++round) {
+      const std::vector<Heal> heals = FindHeals(Map(), options_);
+      if (heals.empty()) break;
+      LeadEnds(heals);
+      if (!Build()) return false;
+      out_.heals.insert(out_.heals.end(), heals.begin(), heals.end());
+    }
+    const Closings closings = FindClosings(Map(), options_);
+    for (const auto& [from, to] : closings.lines) lines_.push_back({from, to, kClosing});
+    out_.heals.insert(out_.heals.end(), closings.joined.begin(), closings.joined.end());
+    return closings.lines.empty() || Build();
   }
 
   // How far the other side of the half-edge's face is across from points of it.
@@ -123,21 +159,30 @@ class MassFinder {
     return out;
   }
 
+  // The median of what is measured across, or the mean where that is more than a wall's: free space that a line runs round close by
+  // is narrow along most of its boundary, too.
+  double ThicknessOf(uint32_t face, const std::vector<WeightedLength>& widths) const {
+    double length_m = 0;
+    for (const auto& w : widths) length_m += w.weight_m;
+    const double mean_m = length_m > 0 ? 2 * Map().AreaOf(face) / length_m : 0;
+    return mean_m > options_.max_thickness_m ? mean_m : WeightedMedian(widths);
+  }
+
   void Classify() {
     const auto widths = MeasureFaces();
-    std::vector<double> median(Map().num_faces(), 0);
+    std::vector<double> thickness_m(Map().num_faces(), 0);
     std::vector<WeightedLength> typical;
     for (uint32_t f = 1; f < Map().num_faces(); ++f) {
-      median[f] = WeightedMedian(widths[f]);
-      if (median[f] < options_.min_thickness_m || median[f] > options_.max_thickness_m) continue;
-      for (const auto& w : widths[f]) typical.push_back({median[f], w.weight_m});
+      thickness_m[f] = ThicknessOf(f, widths[f]);
+      if (thickness_m[f] < options_.min_thickness_m || thickness_m[f] > options_.max_thickness_m) continue;
+      for (const auto& w : widths[f]) typical.push_back({thickness_m[f], w.weight_m});
     }
     out_.typical_thickness_m = WeightedMedian(typical);
     const double limit = out_.ThickestUsual_m(options_);
     out_.is_wall.assign(Map().num_faces(), false);
-    for (uint32_t f = 1; f < Map().num_faces(); ++f) out_.is_wall[f] = median[f] > 0 && median[f] <= limit;
+    for (uint32_t f = 1; f < Map().num_faces(); ++f) out_.is_wall[f] = thickness_m[f] > 0 && thickness_m[f] <= limit;
     MarkFilled();
-    MarkPiers(median);
+    MarkPiers(thickness_m);
     ClearRooms();
     CountSingleLines();
   }
@@ -198,7 +243,8 @@ class MassFinder {
       } while (h != loop);
     }
     if (2 * free_m <= length_m) return false;
-    if (width_m > 0 && width_m <= options_.max_thickness_m) return true;  // a wall much thicker than most
+    // A wall much thicker than most; a strip that leans on a wall with one long side is a ledge, or the air below one.
+    if (width_m > 0 && width_m <= options_.max_thickness_m && free_m >= kFreeShare * length_m) return true;
     return Map().LoopsOf(face).size() == 1 &&
            LesserSide(Map().RingAt(start)) <= (one_outline ? options_.max_pier_m : options_.max_loose_pier_m);
   }
@@ -236,6 +282,12 @@ class MassFinder {
 
 std::string MassOptions::Check() const {
   if (!(join_m > 0 && join_m < 0.05)) return fmt::format("MassOptions.join_m = {}; must be in (0, 0.05)", join_m);
+  if (!(heal_share >= 0 && heal_share <= 0.5)) return fmt::format("MassOptions.heal_share = {}; must be in [0, 0.5]", heal_share);
+  if (!(max_undershoot_m >= 0 && max_undershoot_m < 0.5))
+    return fmt::format("MassOptions.max_undershoot_m = {}; must be in [0, 0.5)", max_undershoot_m);
+  if (!(max_break_m >= 0 && max_break_m < 1)) return fmt::format("MassOptions.max_break_m = {}; must be in [0, 1)", max_break_m);
+  if (!(min_thickness_m > 0 && min_thickness_m < max_thickness_m))
+    return fmt::format("MassOptions.min_thickness_m = {}; must be in (0, max_thickness_m)", min_thickness_m);
   if (!(max_thickness_m > 0.1 && max_thickness_m < 3))
     return fmt::format("MassOptions.max_thickness_m = {}; must be in (0.1, 3)", max_thickness_m);
   if (!(single_line_thickness_m > 0.01 && single_line_thickness_m < 1))

@@ -28,11 +28,12 @@ struct MassOptions {
   [[nodiscard]] std::string Check() const;
 };
 
-// The end of a line that was led to another line, or to its end.
+// The end of a line that was led to another line, or to its end: by a slip's length moved there, farther off joined by a line.
 struct Heal {
   Eigen::Vector2d from, to;
-  uint32_t path = 0, other = 0;  // of the drawing; none of them where it was healed before
-  [[nodiscard]] double distance_m() const { return (to - from).norm(); }
+  std::optional<Eigen::Vector2d> mate;  // the other line's end, where that was led to `to` as well
+  uint32_t path = 0, other = 0;         // of the drawing
+  [[nodiscard]] double distance_m() const { return (mate.value_or(to) - from).norm(); }
 };
 
 struct WallMass {
@@ -41,7 +42,7 @@ struct WallMass {
   std::vector<bool> is_curved;   // by edge: a step along a curve
   std::vector<uint32_t> circle_of;  // by edge: in `circles`, where it is a step along an arc; else 0xffffffff
   std::vector<Circle> circles;
-  std::vector<Heal> heals;         // nearest first
+  std::vector<Heal> heals;
   double typical_thickness_m = 0;  // 0: no face is a wall
   double single_m = 0;           // length of lines that have no partner
   bool single_lines = false;     // they were given a thickness
@@ -58,9 +59,9 @@ struct WallMass {
   [[nodiscard]] bool EdgeIsBoundary(uint32_t edge) const { return IsBoundary(2 * edge) || IsBoundary(2 * edge + 1); }
 };
 
-// Loose ends are closed first: slips of the pen, the two of a wall that ends openly, those that stop short of a line, and breaks. A face is a wall if what
-// lies across it from most of its boundary is no farther than walls are thick in this drawing; so is what a wall's fill covers, and an outline
-// on a layer of walls that has free space around it. `paths`: those of `drawing` that may bound walls. None: too many crossings.
+// Loose ends are closed first: slips of the pen, the two of a wall that ends openly, those that stop short of a line, and breaks. A face is
+// a wall if what lies across it from most of its boundary is no farther than walls are thick in this drawing; so is what a wall's fill
+// covers, and an outline on a layer of walls that has free space around it. `paths`: those of `drawing` that may bound walls. None: too many crossings.
 [[nodiscard]] std::optional<WallMass> FindWallMass(const Drawing& drawing, const std::vector<uint32_t>& paths, const MassOptions& options);
 
 }  // namespace plumb::compiler

@@ -44,12 +44,13 @@ void ReportHeals(const Drawing& drawing, const WallMass& mass, DiagnosticSink& s
 }
 
 // Marks the lines by edge.
-void ReportOpenOutlines(const Drawing& drawing, const WallMass& mass, const MassOptions& options, DiagnosticSink& sink, std::vector<bool>& is_told) {
+void ReportOpenOutlines(const Drawing& drawing, const WallMass& mass, const MassOptions& options, DiagnosticSink& sink,
+                        std::vector<bool>& is_told) {
   for (const OpenOutline& open : FindOpenOutlines(drawing, mass, options)) {
     for (const uint32_t e : open.edges) is_told[e] = true;
     sink.Emit(DiagnosticKind::kOutlineOpen, LocationOf(drawing, open.path),
-              fmt::format("{:.1f} m of lines that lie beside each other as the sides of walls do enclose no wall; their outline is open about "
-                          "{} m",
+              fmt::format("{:.1f} m of lines that lie beside each other as the sides of walls do enclose no wall; their outline is open "
+                          "about {} m",
                           open.length_m, Place(open.at)),
               "close the outline there; what it was to enclose is missing from the plan");
   }
@@ -68,7 +69,8 @@ void ReportWithoutPartner(const Drawing& drawing, const WallMass& mass, const Ma
   }
   if (sum_m <= options.min_single_m) return;
   sink.Emit(DiagnosticKind::kLinesWithoutPartner, LocationOf(drawing, mass.map.edges()[longest].source),
-            fmt::format("{:.1f} m of lines have no parallel partner within {:.2f} m and are taken for no walls; the longest goes from {} to {} m",
+            fmt::format("{:.1f} m of lines have no parallel partner within {:.2f} m and are taken for no walls; the longest goes from {} "
+                        "to {} m",
                         sum_m, options.max_thickness_m, Place(mass.map.FromPoint(2 * longest)), Place(mass.map.ToPoint(2 * longest))));
 }
 

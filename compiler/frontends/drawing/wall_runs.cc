@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "compiler/frontends/drawing/plane.h"
 #include "compiler/frontends/drawing/round_runs.h"
@@ -21,6 +22,16 @@ constexpr double kJunction = 1.6;   // a crossing wall's thickness, in those of 
 // Along the line x -> (cos, sin), the same for both directions of a wall.
 Eigen::Vector2d Canonical(const Eigen::Vector2d& d) {
   return d.x() < -1e-9 || (std::abs(d.x()) <= 1e-9 && d.y() < 0) ? Eigen::Vector2d(-d) : d;
+}
+
+// The piece read in the direction of `run`: of two that lean to either side of the line where Canonical() turns round, one is read
+// backwards.
+WallRun AlongWith(const WallRun& run, WallRun piece) {
+  if (run.along.dot(piece.along) >= 0) return piece;
+  piece.along = -piece.along;
+  piece.start_m = -std::exchange(piece.end_m, -piece.start_m);
+  piece.right_m = -std::exchange(piece.left_m, -piece.right_m);
+  return piece;
 }
 
 class RunFinder {
@@ -83,8 +94,9 @@ class RunFinder {
     return i;
   }
 
-  bool SameLine(const WallRun& a, const WallRun& b) const {
-    if (a.along.dot(b.along) < kSameLine) return false;
+  bool SameLine(const WallRun& a, const WallRun& piece) const {
+    if (std::abs(a.along.dot(piece.along)) < kSameLine) return false;
+    const WallRun b = AlongWith(a, piece);
     const double s = a.S(b.At(0.5 * (b.start_m + b.end_m), 0));
     const Eigen::Vector2d at = a.At(s > a.end_m ? a.end_m : a.start_m, 0);  // compared where they are near
     const double s_b = b.S(at);
@@ -118,7 +130,8 @@ class RunFinder {
   }
 
   // They meet, or another wall runs through between them.
-  bool Touches(const WallRun& a, const WallRun& b) const {
+  bool Touches(const WallRun& a, const WallRun& piece) const {
+    const WallRun b = AlongWith(a, piece);
     const double sb0 = a.S(b.At(b.start_m, b.right_m)), sb1 = a.S(b.At(b.end_m, b.right_m));
     const double lo = std::min(a.end_m, sb1), hi = std::max(a.start_m, sb0), gap = hi - lo;
     if (gap <= kOff_m) return true;
@@ -126,8 +139,9 @@ class RunFinder {
   }
 
   // The opening is the gap between them, or most of it where other walls stand beside it.
-  bool Spans(const DrawnOpening& o, const WallRun& a, const WallRun& b) const {
+  bool Spans(const DrawnOpening& o, const WallRun& a, const WallRun& piece) const {
     if (std::abs(o.along().dot(a.along)) < kSameLine) return false;
+    const WallRun b = AlongWith(a, piece);
     const double sb0 = a.S(b.At(b.start_m, b.right_m)), sb1 = a.S(b.At(b.end_m, b.right_m));
     const double lo = std::min(a.end_m, sb1), hi = std::max(a.start_m, sb0), t = a.T(o.middle());
     const auto [from, to] = std::minmax({a.S(o.from), a.S(o.to)});
@@ -151,7 +165,7 @@ class RunFinder {
       WallRun run = strips_[longest];
       double total = 0, left = 0, right = 0;
       for (const uint32_t i : group) {
-        const WallRun& s = strips_[i];
+        const WallRun s = AlongWith(run, strips_[i]);
         const double middle = 0.5 * (s.start_m + s.end_m), weight = Length(i);
         total += weight;
         left += weight * run.T(s.At(middle, s.left_m));

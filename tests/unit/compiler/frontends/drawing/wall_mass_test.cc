@@ -98,6 +98,79 @@ TEST(WallMass, WhatIsFarForItsThicknessIsNoSlip) {
   EXPECT_TRUE(mass.heals.empty());
 }
 
+// A room of 8 m by 6 m in walls of 0.2 m with a doorway to the outside, and a rectangle `away_m` outside.
+Drawing HouseWithin(double away_m) {
+  Drawing out;
+  DrawnPath walls;
+  walls.points = {{3, 0}, {0, 0}, {0, 6}, {8, 6}, {8, 0}, {4, 0}, {4, 0.2}, {7.8, 0.2}, {7.8, 5.8}, {0.2, 5.8}, {0.2, 0.2}, {3, 0.2}};
+  walls.closed = true;
+  out.paths.push_back(std::move(walls));
+  AddBox(-away_m, -away_m, 8 + away_m, 6 + away_m, out);
+  for (DrawnPath& path : out.paths) path.role = LineRole::kWall;
+  return out;
+}
+
+TEST(WallMass, ALineRoundTheBuildingFillsNothing) {
+  for (const double away_m : {0.2, 0.3, 0.5, 0.6}) {
+    const WallMass mass = MassOf(HouseWithin(away_m));
+    EXPECT_FALSE(IsWall(mass, 4, 3)) << away_m;
+    EXPECT_FALSE(IsWall(mass, -0.5 * away_m, 3)) << away_m;
+    EXPECT_TRUE(IsWall(mass, 0.1, 3)) << away_m;
+  }
+}
+
+// A line 0.6 m outside round two sides of a room in walls of 0.1 m.
+TEST(WallMass, ALedgeAlongAWallIsNoWall) {
+  Drawing drawing;
+  AddBox(0, 0, 8, 6, drawing);
+  AddBox(0.1, 0.1, 7.9, 5.9, drawing);
+  drawing.paths.push_back({});
+  drawing.paths.back().points = {{8, 1}, {8.6, 1}, {8.6, 6.6}, {3, 6.6}, {3, 6}};
+  for (DrawnPath& path : drawing.paths) path.role = LineRole::kWall;
+  const WallMass mass = MassOf(drawing);
+  EXPECT_FALSE(IsWall(mass, 8.3, 3));
+  EXPECT_TRUE(IsWall(mass, 7.95, 3));
+}
+
+// Two walls 0.1 m thick: the second ends `short_m` before the first, across which it stands.
+TEST(WallMass, ALineThatStopsShortOfAWallIsToldOf) {
+  for (const double short_m : {0.035, 0.059}) {
+    Drawing drawing;
+    AddBox(0, 0, 4, 0.1, drawing);
+    for (const double x : {2.0, 2.1}) {
+      drawing.paths.push_back({});
+      drawing.paths.back().points = {{x, 0.1 + short_m}, {x, 3}};
+    }
+    const WallMass mass = MassOf(drawing);
+    EXPECT_TRUE(IsWall(mass, 2.05, 1));
+    ASSERT_EQ(mass.heals.size(), 2u) << short_m << ": not the cap at the other end";
+    EXPECT_NEAR(mass.heals[0].distance_m(), short_m, 1e-6);
+    EXPECT_EQ(mass.heals[0].other, 0u);
+  }
+}
+
+TEST(WallMass, ABreakIsToldOf) {
+  Drawing drawing = WallFrom({0, 0});
+  DrawnPath rest = drawing.paths[0];
+  drawing.paths[0].points[1] = {1.9, 0};
+  rest.points[0] = {2.05, 0};
+  drawing.paths.push_back(std::move(rest));
+  const WallMass mass = MassOf(drawing);
+  EXPECT_TRUE(IsWall(mass, 2, 0.1));
+  ASSERT_EQ(mass.heals.size(), 1u);
+  EXPECT_NEAR(mass.heals[0].distance_m(), 0.15, 1e-6);
+}
+
+TEST(MassOptions, AreChecked) {
+  EXPECT_EQ(MassOptions().Check(), "");
+  for (double MassOptions::*value :
+       {&MassOptions::heal_share, &MassOptions::max_undershoot_m, &MassOptions::max_break_m, &MassOptions::min_thickness_m}) {
+    MassOptions options;
+    options.*value = -1;
+    EXPECT_NE(options.Check(), "");
+  }
+}
+
 // Outer walls 0.4 m thick around many partitions of 0.1 m: two outlines, one within the other.
 TEST(WallMass, ARingMuchThickerThanMostWallsIsAWallOnALayerOfWalls) {
   Drawing drawing;

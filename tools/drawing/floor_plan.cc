@@ -22,16 +22,10 @@ Vector2d Left(const Vector2d& v) { return {-v.y(), v.x()}; }
 
 double WallThickness(const AGraph& g, WallId wall) { return wall.valid() ? g.walls[wall.index()].thickness_m : 0.2; }
 
-// The rectangle of an opening: `along` the wall by its width, across by the wall's thickness.
-Ring OpeningRing(const Vector2d& middle, const Vector2d& along, double width_m, double thickness_m) {
-  const Vector2d a = 0.5 * width_m * along, b = 0.5 * thickness_m * Left(along);
-  return {middle - a - b, middle + a - b, middle + a + b, middle - a + b};
-}
-
 // A wall by its axis and thickness.
 Ring AxisRing(const Wall& w) {
   const Vector2d along = w.axis_end - w.axis_start;
-  return OpeningRing(0.5 * (w.axis_start + w.axis_end), along.normalized(), along.norm(), w.thickness_m);
+  return RectangleAlong(0.5 * (w.axis_start + w.axis_end), along.normalized(), along.norm(), w.thickness_m);
 }
 
 // The cut never lies exactly in a horizontal face: tops of sills and benches are drawn at round heights.
@@ -83,7 +77,7 @@ std::string DrawRoomFloors(const AGraph& g, StoreyId storey, const Sheet& sheet)
 
 std::string DrawWindow(const AGraph& g, const Window& w, const Sheet& sheet) {
   const Vector2d along = Left(Direction(w.yaw_rad)), middle = w.position.head<2>();
-  const Ring ring = OpeningRing(middle, along, w.width_m, WallThickness(g, w.wall));
+  const Ring ring = RectangleAlong(middle, along, w.width_m, WallThickness(g, w.wall));
   const double cut_m = CutHeight(g, w.storey);
   const bool is_cut = w.position.z() < cut_m && cut_m < w.position.z() + w.height_m;
   std::string out = fmt::format("<path class=\"{}\" d=\"{}\"/>\n", is_cut ? "window" : "window-above", sheet.Closed(ring));
@@ -132,7 +126,7 @@ std::string DrawDoor(const AGraph& g, const Doorway& d, const Sheet& sheet) {
   constexpr double kWidestLeaf_m = 1.4;  // wider doors have two
   const double thickness_m = WallThickness(g, d.wall);
   const Vector2d through = Direction(d.yaw_rad), along = Left(through), middle = d.position.head<2>();
-  const Ring ring = OpeningRing(middle, along, d.width_m, thickness_m + 0.02);
+  const Ring ring = RectangleAlong(middle, along, d.width_m, thickness_m + 0.02);
   std::string out = fmt::format("<path class=\"opening\" d=\"{}\"/>\n", sheet.Closed(ring));
   const std::string edges = sheet.Line(ring[0], ring[1]) + sheet.Line(ring[2], ring[3]);
   if (!d.has_leaf) return out + fmt::format("<path class=\"lintel\" d=\"{}\"/>\n", edges);

@@ -80,6 +80,11 @@ bool IsSeen(const Faces& faces) {
 
 }  // namespace
 
+Ring RectangleAlong(const Eigen::Vector2d& middle, const Eigen::Vector2d& along, double length_m, double width_m) {
+  const Eigen::Vector2d a = 0.5 * length_m * along, b = 0.5 * width_m * Eigen::Vector2d(-along.y(), along.x());
+  return {middle - a - b, middle + a - b, middle + a + b, middle - a + b};
+}
+
 std::vector<SectionSegment> SegmentsAt(const AGraph& graph, double z_m) {
   std::vector<SectionSegment> out;
   for (const Triangle& t : graph.mesh.triangles) {

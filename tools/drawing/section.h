@@ -8,6 +8,9 @@
 
 namespace plumb::tools {
 
+// Centred at `middle`, `length_m` along the unit vector `along` and `width_m` across it; counter-clockwise.
+[[nodiscard]] Ring RectangleAlong(const Eigen::Vector2d& middle, const Eigen::Vector2d& along, double length_m, double width_m);
+
 // The cut through one element: closed rings (inner ones are holes; fill them even-odd), plan frame, metres.
 struct ElementSection {
   uint32_t element = 0;  // AGraph::elements

@@ -86,10 +86,8 @@ class Walls {
   }
 
   static Ring Piece(const Wall& wall, double from_m, double to_m) {
-    const Vector2d along = (wall.axis_end - wall.axis_start).normalized(),
-                   across = 0.5 * wall.thickness_m * Vector2d(-along.y(), along.x());
-    const Vector2d a = wall.axis_start + from_m * along, b = wall.axis_start + to_m * along;
-    return {a - across, b - across, b + across, a + across};
+    const Vector2d along = (wall.axis_end - wall.axis_start).normalized();
+    return RectangleAlong(wall.axis_start + 0.5 * (from_m + to_m) * along, along, to_m - from_m, wall.thickness_m);
   }
 
   const AGraph& graph_;

@@ -125,9 +125,8 @@ void DrawElements(const AGraph& graph, const std::vector<SectionSegment>& segmen
 void OpenDoorway(const AGraph& graph, const Doorway& d, Painter& painter, double resolution_m) {
   const double thickness_m = d.wall.valid() ? graph.walls[d.wall.index()].thickness_m : 0;
   const Vector2d through(std::cos(d.yaw_rad), std::sin(d.yaw_rad)), along(-through.y(), through.x()), middle = d.position.head<2>();
-  const Vector2d a = std::max(0.5 * d.width_m - 0.5 * resolution_m, 0.5 * resolution_m) * along,
-                 b = (0.5 * thickness_m + resolution_m) * through;
-  painter.Fill({{middle - a - b, middle + a - b, middle + a + b, middle - a + b}}, Occupancy::kFree);
+  const double width_m = std::max(d.width_m - resolution_m, resolution_m);
+  painter.Fill({RectangleAlong(middle, along, width_m, thickness_m + 2 * resolution_m)}, Occupancy::kFree);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 
 namespace plumb {
 
+// It may stand in the name of a file, too: what is told apart here is for people, and what may be written over asks the whole as well.
 inline constexpr std::string_view kBetweenSourcePaths = " + ";
 
 [[nodiscard]] inline std::vector<std::string> SplitSourcePaths(std::string_view joined) {

@@ -1,4 +1,5 @@
-// A real house without one of its walls and with one that is in no plan, from a simulated tour to the score.
+// From a simulated tour to the score: a real house without one of its walls and with one that is in no plan, and an office floor whose
+// doorways are elsewhere or of another width.
 #include "tests/support/program.h"
 
 namespace plumb {

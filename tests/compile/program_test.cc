@@ -19,6 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using Json = nlohmann::json;
 
 struct Outcome {
@@ -91,6 +92,12 @@ TEST_F(Program, DoctorTellsOfASimulationThatWasBrokenOff) {
   const Outcome broken_off = Plumb("doctor whole");
   EXPECT_EQ(broken_off.status, 1);
   EXPECT_THAT(broken_off.out, HasSubstr("broken off"));
+}
+
+TEST_F(Program, RulesThatKnowNoLayerOfADrawingNameThoseThatDo) {
+  const std::string compile = "compile '" PLUMB_SOURCE_DIR "/plans/house/ground.dxf' -o rules.agraph --layers ";
+  EXPECT_THAT(Plumb(compile + "french").err, HasSubstr("the set `german` knows"));
+  EXPECT_THAT(Plumb(compile + "german").err, Not(HasSubstr("knows those")));
 }
 
 TEST_F(Program, ValidateSaysTheSameInEveryFormat) {

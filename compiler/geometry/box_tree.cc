@@ -18,7 +18,8 @@ template <int kDimension>
 class Builder {
  public:
   using Box = Eigen::AlignedBox<double, kDimension>;
-  Builder(const std::vector<Box>& boxes, std::vector<uint32_t>& order, std::vector<Box>& nodes) : boxes_(boxes), order_(order), nodes_(nodes) {}
+  Builder(const std::vector<Box>& boxes, std::vector<uint32_t>& order, std::vector<Box>& nodes)
+      : boxes_(boxes), order_(order), nodes_(nodes) {}
 
   // Of order[first, first + places.size()), below `node`.
   void Build(size_t node, size_t first, std::span<Place> places) {

@@ -17,7 +17,8 @@ struct LevelMatch {
 
 class LevelMatcher {
  public:
-  LevelMatcher(const SGraph& map, const AGraph& plan, const Eigen::Isometry3d& T_plan_map) : map_(map), plan_(plan), T_plan_map_(T_plan_map) {}
+  LevelMatcher(const SGraph& map, const AGraph& plan, const Eigen::Isometry3d& T_plan_map)
+      : map_(map), plan_(plan), T_plan_map_(T_plan_map) {}
 
   // The room whose level, `height_m` higher than planned, most of the surface's points are within `gate_m` of. None for walls.
   [[nodiscard]] std::optional<LevelMatch> Find(uint32_t i, double height_m, double gate_m) const {

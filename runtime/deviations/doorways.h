@@ -40,9 +40,9 @@ struct DoorwayDeviation {
 };
 
 // One per plan doorway. The jambs are looked for in the built frame of the wall, which must be matched and not be missing (`presence`: per
-// wall; empty: none is), to 0.5 m from where they are planned, as far as there is plain wall; in a corner
-// the next wall is the jamb; the plan's frames are part of the jambs.
-// Unobserved in maps of planar lasers. `map` with the poses of `estimate`. O(keyframe points + doorways). Deterministic.
+// wall; empty: none is), to 0.5 m from where they are planned, as far as there is plain wall; in a corner the next wall is the jamb; the
+// plan's frames are part of the jambs. Unobserved in maps of planar lasers. `map` with the poses of `estimate`. O(keyframe points +
+// doorways). Deterministic.
 [[nodiscard]] std::vector<DoorwayDeviation> JudgeDoorways(const SGraph& map, const AGraph& plan, const JointResult& estimate,
                                                           const std::vector<WallPresence>& presence, const DoorwayOptions& options = {});
 

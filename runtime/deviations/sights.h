@@ -18,7 +18,8 @@ struct Sight {
 
 inline constexpr size_t kSightsPerKeyframe = 6000;
 
-// An even sample of each keyframe's points, at most `per_keyframe`, in the map's order. Merged keyframes have none: those they were merged into saw the same.
+// An even sample of each keyframe's points, at most `per_keyframe`, in the map's order. Merged keyframes have none: those they were merged
+// into saw the same.
 template <class F>
 void ForEachSight(const SGraph& map, const Eigen::Isometry3d& T_plan_map, F&& visit,
                   size_t per_keyframe = kSightsPerKeyframe) {

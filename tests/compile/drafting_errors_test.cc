@@ -91,7 +91,8 @@ class DraftingErrors : public testing::Test {
     std::vector<std::vector<size_t>> out;
     for (size_t i = 0; i < lines_.size(); ++i) {
       if (lines_[i].layer != "WAND") continue;
-      const bool goes_on = !out.empty() && lines_[out.back().back()].at[2] == lines_[i].at[0] && lines_[out.back().back()].at[3] == lines_[i].at[1];
+      const bool goes_on =
+          !out.empty() && lines_[out.back().back()].at[2] == lines_[i].at[0] && lines_[out.back().back()].at[3] == lines_[i].at[1];
       if (!goes_on) out.emplace_back();
       out.back().push_back(i);
     }

@@ -33,7 +33,8 @@ DoorwayScore CompareDoorways(const Truth& truth, const Deviations& reported, dou
   DoorwayScore score;
   double sum_m = 0, covered = 0;
   for (const DoorwayTruth& t : truth.doorways) {
-    const auto entry = std::find_if(reported.doorways.begin(), reported.doorways.end(), [&](const DoorwayEntry& d) { return d.id == t.id; });
+    const auto entry =
+        std::find_if(reported.doorways.begin(), reported.doorways.end(), [&](const DoorwayEntry& d) { return d.id == t.id; });
     const DoorwayEntry d = entry == reported.doorways.end() ? DoorwayEntry{.id = t.id, .guid = {}, .status = "unobserved"} : *entry;
     DoorwayResult r;
     r.id = t.id;
@@ -47,7 +48,8 @@ DoorwayScore CompareDoorways(const Truth& truth, const Deviations& reported, dou
     r.sigma_width_m = d.sigma_width_m;
     if (r.measured) {
       ++score.measured;
-      for (const auto& [error_m, sigma_m] : {std::pair(r.shift_m - t.shift_m, r.sigma_shift_m), std::pair(r.width_deviation_m - t.width_deviation_m, r.sigma_width_m)}) {
+      for (const auto& [error_m, sigma_m] :
+           {std::pair(r.shift_m - t.shift_m, r.sigma_shift_m), std::pair(r.width_deviation_m - t.width_deviation_m, r.sigma_width_m)}) {
         sum_m += std::abs(error_m);
         score.max_error_m = std::max(score.max_error_m, std::abs(error_m));
         covered += std::abs(error_m) <= 2 * sigma_m ? 1 : 0;
@@ -70,8 +72,9 @@ DoorwayScore CompareDoorways(const Truth& truth, const Deviations& reported, dou
   const auto missed = static_cast<double>(score.Count(WallOutcome::kMissed)), wrong = static_cast<double>(score.Count(WallOutcome::kFalse));
   if (found + wrong > 0) score.precision = found / (found + wrong);
   if (found + missed > 0) score.recall = found / (found + missed);
-  std::sort(score.results.begin(), score.results.end(),
-            [](const DoorwayResult& a, const DoorwayResult& b) { return std::tie(a.outcome, a.id.value) < std::tie(b.outcome, b.id.value); });
+  std::sort(score.results.begin(), score.results.end(), [](const DoorwayResult& a, const DoorwayResult& b) {
+    return std::tie(a.outcome, a.id.value) < std::tie(b.outcome, b.id.value);
+  });
   return score;
 }
 

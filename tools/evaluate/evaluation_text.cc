@@ -74,15 +74,20 @@ void WriteChanges(const std::string& name, const std::vector<ChangeResult>& resu
 void WriteDoorways(const DoorwayScore& score, std::string& out) {
   if (score.measured == 0 && score.results.empty()) return;
   auto write = std::back_inserter(out);
-  fmt::format_to(write, "{:<22} {} found, {} inaccurate, {} missed, {} unjudged, {} unobserved, {} false; {} measured, error {:.3f} m mean, {:.3f} m max, "
-                 "{:.0f} % within 2 sigma\n", "deviated doorways", score.Count(WallOutcome::kFound), score.Count(WallOutcome::kInaccurate),
-                 score.Count(WallOutcome::kMissed), score.Count(WallOutcome::kUnjudged), score.Count(WallOutcome::kUnobserved),
-                 score.Count(WallOutcome::kFalse), score.measured, score.mean_error_m, score.max_error_m, 100 * score.coverage);
+  fmt::format_to(
+      write,
+      "{:<22} {} found, {} inaccurate, {} missed, {} unjudged, {} unobserved, {} false; {} measured, error {:.3f} m mean, {:.3f} m max, "
+      "{:.0f} % within 2 sigma\n",
+      "deviated doorways", score.Count(WallOutcome::kFound), score.Count(WallOutcome::kInaccurate), score.Count(WallOutcome::kMissed),
+      score.Count(WallOutcome::kUnjudged), score.Count(WallOutcome::kUnobserved), score.Count(WallOutcome::kFalse), score.measured,
+      score.mean_error_m, score.max_error_m, 100 * score.coverage);
   for (const DoorwayResult& r : score.results) {
-    fmt::format_to(write, "  {:<24} {:<10} shift {:+.3f} m, width {:+.3f} m", r.guid.empty() ? fmt::format("doorway {}", r.id.value) : r.guid,
-                   WallOutcomeName(r.outcome), r.true_shift_m, r.true_width_deviation_m);
+    fmt::format_to(write, "  {:<24} {:<10} shift {:+.3f} m, width {:+.3f} m",
+                   r.guid.empty() ? fmt::format("doorway {}", r.id.value) : r.guid, WallOutcomeName(r.outcome), r.true_shift_m,
+                   r.true_width_deviation_m);
     if (r.measured) {
-      fmt::format_to(write, "; measured {:+.3f} +- {:.3f}, {:+.3f} +- {:.3f}", r.shift_m, r.sigma_shift_m, r.width_deviation_m, r.sigma_width_m);
+      fmt::format_to(write, "; measured {:+.3f} +- {:.3f}, {:+.3f} +- {:.3f}", r.shift_m, r.sigma_shift_m, r.width_deviation_m,
+                     r.sigma_width_m);
     }
     out += "\n";
   }

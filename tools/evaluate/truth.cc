@@ -49,7 +49,8 @@ Expected<Truth> ParseTruth(const std::string& json, const std::string& source) {
     if (root.at("version") != 1) return Fail(ErrorCode::kNotARecording, fmt::format("`{}` has another version than 1", source));
     Truth truth;
     truth.has_walls = true;
-    if (root.value("incomplete", false)) return Fail(ErrorCode::kNotARecording, fmt::format("`{}`: the simulation was broken off; simulate it again", source));
+    if (root.value("incomplete", false))
+      return Fail(ErrorCode::kNotARecording, fmt::format("`{}`: the simulation was broken off; simulate it again", source));
     if (const auto plan = root.find("plan"); plan != root.end()) truth.plan_source_sha256 = plan->value("sha256", "");
     for (const Json& wall : root.at("walls")) truth.walls.push_back(ParseWall(wall));
     for (const Json& m : root.value("missing", Json::array())) truth.missing.push_back({m.at("wall_guid"), m.at("rays_through")});
@@ -59,7 +60,8 @@ Expected<Truth> ParseTruth(const std::string& json, const std::string& source) {
         return Fail(ErrorCode::kNotARecording, fmt::format("`{}`: a polygon of `unplanned` has fewer than 3 corners", source));
     }
     for (const Json& d : root.value("doorways", Json::array())) {
-      truth.doorways.push_back({DoorwayId(d.at("id").get<uint32_t>()), d.value("guid", ""), d.at("shift_m"), d.at("width_deviation_m"), d.at("rays_through")});
+      truth.doorways.push_back(
+          {DoorwayId(d.at("id").get<uint32_t>()), d.value("guid", ""), d.at("shift_m"), d.at("width_deviation_m"), d.at("rays_through")});
     }
     const Json points = root.value("surface_points", Json::object());
     for (const auto& [key, count] : points.items()) {

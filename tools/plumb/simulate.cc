@@ -148,7 +148,8 @@ void AddSimulate(CLI::App& app, Session& session) {
   sub->add_option("--rotation", flags->rotation_deg, "least and largest turn of such a wall, deg")->type_name("LEAST:MOST");
   sub->add_option("--sensor", o.sensor, "one of " + sensors);
   sub->add_option("--noise", o.noise_m, "sigma of a measured range, m; 0: the sensor's own");
-  sub->add_option("--storey", flags->storey, "storey to drive on, by name or counted from 0; else the one with most rooms")->type_name("NAME");
+  sub->add_option("--storey", flags->storey, "storey to drive on, by name or counted from 0; else the one with most rooms")
+      ->type_name("NAME");
   sub->add_option("--speed", o.speed_m_s, "of the robot, m/s");
   sub->add_option("--sensor-height", o.sensor_height_m, "above the floor, m");
   sub->add_option("--duration", o.min_duration_s, "drive at least this long, s");

@@ -187,7 +187,8 @@ class OpeningFinder {
     bool within = false;
     rooms_.ForEachIn(Eigen::AlignedBox2d(o.middle()), [&](uint32_t r) {
       const auto& outline = drawing_.spaces[r].outline;
-      within = within || (Contains(outline, o.middle() + across) && Contains(outline, o.middle()) && Contains(outline, o.middle() - across));
+      within =
+          within || (Contains(outline, o.middle() + across) && Contains(outline, o.middle()) && Contains(outline, o.middle() - across));
     });
     return within;
   }
@@ -236,7 +237,8 @@ class OpeningFinder {
       if (a == kNone || b == kNone || a == b || joined[a] || joined[b]) continue;
       DrawnOpening &first = out_[std::min(a, b)], &second = out_[std::max(a, b)];
       const Eigen::Vector2d u = first.along();
-      if (std::abs(u.dot(second.along())) < kAgainst || std::abs(Cross(u, second.middle() - first.middle())) > 0.5 * first.depth_m) continue;
+      if (std::abs(u.dot(second.along())) < kAgainst || std::abs(Cross(u, second.middle() - first.middle())) > 0.5 * first.depth_m)
+        continue;
       for (const Eigen::Vector2d& p : {second.from, second.to}) {
         const double s = u.dot(p - first.from);
         if (s < 0) first.from += s * u;

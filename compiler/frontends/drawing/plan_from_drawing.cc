@@ -300,7 +300,8 @@ class StoreyBuilder {
     std::map<uint32_t, std::vector<const DrawnText*>> by_face;
     for (const DrawnText& text : drawing_.texts) {
       const uint32_t face = map.FaceAt(text.at);
-      const bool drawn = std::any_of(drawing_.spaces.begin(), drawing_.spaces.end(), [&](const DrawnSpace& s) { return Contains(s.outline, text.at); });
+      const bool drawn =
+          std::any_of(drawing_.spaces.begin(), drawing_.spaces.end(), [&](const DrawnSpace& s) { return Contains(s.outline, text.at); });
       if (face != 0 && covers[face] == FaceCover::kFree && !drawn) by_face[face].push_back(&text);
     }
     for (const auto& [face, texts] : by_face) {

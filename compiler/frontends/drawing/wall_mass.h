@@ -61,7 +61,8 @@ struct WallMass {
 
 // Loose ends are closed first: slips of the pen, the two of a wall that ends openly, those that stop short of a line, and breaks. A face is
 // a wall if what lies across it from most of its boundary is no farther than walls are thick in this drawing; so is what a wall's fill
-// covers, and an outline on a layer of walls that has free space around it. `paths`: those of `drawing` that may bound walls. None: too many crossings.
+// covers, and an outline on a layer of walls that has free space around it. `paths`: those of `drawing` that may bound walls. None: too
+// many crossings.
 [[nodiscard]] std::optional<WallMass> FindWallMass(const Drawing& drawing, const std::vector<uint32_t>& paths, const MassOptions& options);
 
 }  // namespace plumb::compiler

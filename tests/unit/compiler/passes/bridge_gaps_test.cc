@@ -90,7 +90,8 @@ TEST(BridgeGaps, FewGapsInALargePlanAreDecidedAsInASmallOne) {
     EXPECT_NE(FaceAt(among, {1, 2}), FaceAt(among, {2.5, 2}));
   }
   Floor open = Box(0.25);  // no gap at all that is narrow enough
-  for (uint32_t i = 0; i < 200; ++i) open.footprints.push_back({FootprintKind::kColumn, kNoIndex, 7 + i, true, {Rectangle({10.0 + i, 0}, {10.4 + i, 1})}});
+  for (uint32_t i = 0; i < 200; ++i)
+    open.footprints.push_back({FootprintKind::kColumn, kNoIndex, 7 + i, true, {Rectangle({10.0 + i, 0}, {10.4 + i, 1})}});
   ASSERT_TRUE(BridgeGaps({}, {}, open));
   EXPECT_TRUE(open.bridges.empty());
   EXPECT_EQ(FaceAt(open, {2, 1.5}), 0u);

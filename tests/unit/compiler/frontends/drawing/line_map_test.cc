@@ -43,7 +43,8 @@ TEST(LineMap, WhatLiesAroundALeftmostCornerWithALineFromItIsTheOutside) {
   // The line's two ends are off the level by as little as rounding, either way.
   for (const double off : {-1e-15, 0.0, 1e-15}) {
     const Vector2d west(-4, off), east(4, 0), north(0, 4), south(0, -4);
-    const LineMap map = Map({{west, south, 0}, {south, east, 1}, {east, north, 2}, {north, west, 3}, {west, {-3, 0}, 4}, {{-3, 0}, east, 5}});
+    const LineMap map =
+        Map({{west, south, 0}, {south, east, 1}, {east, north, 2}, {north, west, 3}, {west, {-3, 0}, 4}, {{-3, 0}, east, 5}});
     ASSERT_EQ(map.num_faces(), 3u);
     for (uint32_t f = 1; f < 3; ++f) {
       EXPECT_EQ(map.LoopsOf(f).size(), 1u) << off;

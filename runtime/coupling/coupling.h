@@ -29,7 +29,7 @@ struct CouplingOptions {
   // (wall_search.h).
   double far_offset_m = 0.65, far_yaw_rad = 0.55;
   double max_level_offset_m = 0.25;   // the same for floors and ceilings
-  double max_unknown_height_m = 1.3;  // of a floor, while none is matched: below half a storey
+  double max_unknown_height_m = 1.3;  // of floors, where they fit another height better: below half a storey
   double min_overlap_ratio = 0.3;   // of the shorter of the two, along the wall
   double min_height_overlap_ratio = 0.5;  // of the shorter of the two height bands
   double max_step_m = 0.15;         // patches of one side of a wall lie on one line within this; what does not is furniture or another wall

@@ -10,72 +10,104 @@
 namespace plumb::runtime {
 namespace {
 
-struct LevelMatch {
-  Match match;
-  double points = 0;
+constexpr double kKnownHeightWeight = 2;  // what another height must have more of than the one that levels are matched at
+constexpr double kReflections = 0.3;      // of a floor's points may lie below it
+
+// Points of a floor or ceiling in a room.
+struct LevelPoints {
+  size_t room;
+  double offset_m;  // by how much they lie higher than the room's level
+  double count;
 };
 
 class LevelMatcher {
  public:
-  LevelMatcher(const SGraph& map, const AGraph& plan, const Eigen::Isometry3d& T_plan_map)
-      : map_(map), plan_(plan), T_plan_map_(T_plan_map) {}
-
-  // The room whose level, `height_m` higher than planned, most of the surface's points are within `gate_m` of. None for walls.
-  [[nodiscard]] std::optional<LevelMatch> Find(uint32_t i, double height_m, double gate_m) const {
-    const MapSurface& surface = map_.surfaces[i];
-    if (surface.kind == SurfaceKind::kWall || surface.observations.empty()) return std::nullopt;
-    std::vector<double> votes(plan_.rooms.size(), 0), offsets(plan_.rooms.size(), 0);
-    for (const Observation& o : surface.observations) {
-      const Eigen::Vector3d p = T_plan_map_ * (map_.keyframes[o.keyframe].T_map_kf * o.stats.centroid());
-      for (size_t r = 0; r < plan_.rooms.size(); ++r) {
-        const Room& room = plan_.rooms[r];
-        const double offset_m = p.z() - (surface.kind == SurfaceKind::kFloor ? room.floor_z_m : room.ceiling_z_m);
-        if (std::abs(offset_m - height_m) > gate_m || !Contains(room, p.head<2>())) continue;
-        votes[r] += o.stats.count();
-        offsets[r] += o.stats.count() * offset_m;
+  // Only points within reach_m of a room's level are looked at.
+  LevelMatcher(const SGraph& map, const AGraph& plan, const Eigen::Isometry3d& T_plan_map, double reach_m)
+      : map_(map), rooms_(plan.rooms.size()), points_(map.surfaces.size()) {
+    for (uint32_t i = 0; i < map.surfaces.size(); ++i) {
+      if (map.surfaces[i].kind == SurfaceKind::kWall) continue;
+      for (const Observation& o : map.surfaces[i].observations) {
+        const Eigen::Vector3d p = T_plan_map * (map.keyframes[o.keyframe].T_map_kf * o.stats.centroid());
+        for (size_t r = 0; r < rooms_; ++r) {
+          const Room& room = plan.rooms[r];
+          const double offset_m = p.z() - (IsFloor(i) ? room.floor_z_m : room.ceiling_z_m);
+          if (std::abs(offset_m) <= reach_m && Contains(room, p.head<2>())) points_[i].push_back({r, offset_m, o.stats.count()});
+        }
       }
     }
-    const auto best = std::max_element(votes.begin(), votes.end());
-    if (best == votes.end() || *best <= 0) return std::nullopt;
-    const auto room = static_cast<size_t>(best - votes.begin());
-    return LevelMatch{{i, SurfaceId(), RoomId(room), offsets[room] / *best, 0, {}}, *best};
   }
 
+  // Each surface with the room whose level, `height_m` higher than planned, most of its points are within `gate_m` of.
   [[nodiscard]] std::vector<Match> FindAll(double height_m, double gate_m) const {
     std::vector<Match> matches;
-    for (uint32_t i = 0; i < map_.surfaces.size(); ++i) {
-      if (auto found = Find(i, height_m, gate_m)) matches.push_back(std::move(found->match));
+    for (uint32_t i = 0; i < points_.size(); ++i) {
+      if (auto found = Find(i, height_m, gate_m)) matches.push_back(std::move(*found));
     }
     return matches;
   }
 
-  // By how much the floor that is seen best lies higher than planned.
-  [[nodiscard]] std::optional<double> HeightOfBestFloor(double gate_m) const {
-    std::optional<LevelMatch> best;
-    for (uint32_t i = 0; i < map_.surfaces.size(); ++i) {
+  // How well the floors seen fit floors `height_m` higher than planned. Through a floor nothing is seen: where it would be, what lies lower
+  // in the same room speaks against it.
+  [[nodiscard]] double Support(double height_m, double gate_m) const {
+    std::vector<double> on(rooms_, 0), below(rooms_, 0);
+    for (uint32_t i = 0; i < points_.size(); ++i) {
       if (!IsFloor(i)) continue;
-      auto found = Find(i, 0, gate_m);
-      if (found && (!best || found->points > best->points)) best = std::move(found);
+      for (const LevelPoints& p : points_[i]) {
+        if (std::abs(p.offset_m - height_m) <= gate_m)
+          on[p.room] += p.count;
+        else if (p.offset_m < height_m)
+          below[p.room] += p.count;
+      }
     }
-    return best ? std::optional(best->match.offset_m) : std::nullopt;
+    double support = 0;
+    for (size_t r = 0; r < rooms_; ++r) support += below[r] < kReflections * on[r] ? on[r] : 0;
+    return support;
   }
 
-  [[nodiscard]] bool IsFloor(uint32_t i) const { return map_.surfaces[i].kind == SurfaceKind::kFloor; }
+  // By how much the floors of the map lie higher than planned: zero if that fits them, else what fits them best.
+  [[nodiscard]] double Height(double gate_m, double reach_m) const {
+    double best_m = 0, best = kKnownHeightWeight * Support(0, gate_m);
+    for (uint32_t i = 0; i < points_.size(); ++i) {
+      if (!IsFloor(i)) continue;
+      const auto match = Find(i, 0, reach_m);
+      if (!match) continue;
+      const double support = Support(match->offset_m, gate_m);
+      if (support > best) {
+        best = support;
+        best_m = match->offset_m;
+      }
+    }
+    return best_m;
+  }
 
  private:
+  [[nodiscard]] bool IsFloor(uint32_t i) const { return map_.surfaces[i].kind == SurfaceKind::kFloor; }
+
+  [[nodiscard]] std::optional<Match> Find(uint32_t i, double height_m, double gate_m) const {
+    std::vector<double> votes(rooms_, 0), offsets(rooms_, 0);
+    for (const LevelPoints& p : points_[i]) {
+      if (std::abs(p.offset_m - height_m) > gate_m) continue;
+      votes[p.room] += p.count;
+      offsets[p.room] += p.count * p.offset_m;
+    }
+    const auto best = std::max_element(votes.begin(), votes.end());
+    if (best == votes.end() || *best <= 0) return std::nullopt;
+    const auto room = static_cast<size_t>(best - votes.begin());
+    return Match{i, SurfaceId(), RoomId(room), offsets[room] / *best, 0, {}};
+  }
+
   const SGraph& map_;
-  const AGraph& plan_;
-  const Eigen::Isometry3d& T_plan_map_;
+  size_t rooms_;
+  std::vector<std::vector<LevelPoints>> points_;  // of each surface; none of walls
 };
 
 }  // namespace
 
 std::vector<Match> MatchLevels(const SGraph& map, const AGraph& plan, const Eigen::Isometry3d& T_plan_map, const CouplingOptions& options) {
-  const LevelMatcher matcher(map, plan, T_plan_map);
-  std::vector<Match> matches = matcher.FindAll(0, options.max_level_offset_m);
-  if (std::any_of(matches.begin(), matches.end(), [&](const Match& m) { return matcher.IsFloor(m.map_surface); })) return matches;
-  const std::optional<double> height_m = matcher.HeightOfBestFloor(options.max_unknown_height_m);
-  return height_m ? matcher.FindAll(*height_m, options.max_level_offset_m) : matches;
+  const double gate_m = options.max_level_offset_m, reach_m = options.max_unknown_height_m;
+  const LevelMatcher matcher(map, plan, T_plan_map, reach_m + gate_m);
+  return matcher.FindAll(matcher.Height(gate_m, reach_m), gate_m);
 }
 
 }  // namespace plumb::runtime

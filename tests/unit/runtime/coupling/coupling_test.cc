@@ -94,7 +94,7 @@ TEST(MatchSurfaces, MeasuresOffsetAlongTheNormalAndYawCounterClockwise) {
 TEST(MatchSurfaces, TakesNoLeafInADoorwayForTheWall) {
   const AGraph house = test::MakeHouse();
   Scene scene;
-  const uint32_t leaf = scene.Add({-0.15, 2.1}, {-0.15, 1.2}, 0.0, 2.0);       // in D3, A's west wall
+  const uint32_t leaf = scene.Add({-0.15, 2.1}, {-0.15, 1.2}, 0.0, 2.0);        // in D3, A's west wall
   const uint32_t with_frame = scene.Add({-0.06, 2.5}, {-0.06, 1.2}, 0.0, 2.2);  // grown together with a bit of wall
   const uint32_t wall = scene.Add({0, 3.4}, {0, 2.2});
   EXPECT_FALSE(scene.Of(house, leaf).valid());
@@ -109,8 +109,8 @@ TEST(MatchSurfaces, TakesNoLeafInADoorwayForTheWall) {
 TEST(MatchSurfaces, NeverMatchesTheOtherFaceOfAWall) {
   const AGraph house = test::MakeHouse();
   Scene scene;
-  const uint32_t in_c = scene.Add({5.06, 5.0}, {5.06, 1.0});   // normal +x: C's west
-  const uint32_t in_a = scene.Add({4.94, 0.5}, {4.94, 3.0});   // normal -x: A's east
+  const uint32_t in_c = scene.Add({5.06, 5.0}, {5.06, 1.0});  // normal +x: C's west
+  const uint32_t in_a = scene.Add({4.94, 0.5}, {4.94, 3.0});  // normal -x: A's east
   EXPECT_EQ(scene.Of(house, in_c), SurfaceId(11));
   EXPECT_EQ(scene.Of(house, in_a), SurfaceId(1));
 }
@@ -121,7 +121,7 @@ TEST(MatchSurfaces, TakesNoFurnitureFrontOfAPlanarScanForAWallSeenFromBehind) {
   Scene scene;
   scene.map.planar = true;
   const uint32_t front = scene.Add({4.79, 0.5}, {4.79, 3.0});  // 15 cm before A's east wall
-  EXPECT_EQ(scene.Of(house, front), SurfaceId(1));  // nothing says that the wall is not there
+  EXPECT_EQ(scene.Of(house, front), SurfaceId(1));             // nothing says that the wall is not there
   const uint32_t other_face = scene.Add({5.06, 5.0}, {5.06, 1.0});
   EXPECT_FALSE(scene.Of(house, front).valid());
   EXPECT_EQ(scene.Of(house, other_face), SurfaceId(11));
@@ -136,9 +136,9 @@ TEST(MatchSurfaces, TakesNoFurnitureFrontOfAPlanarScanForAWallSeenFromBehind) {
 TEST(MatchSurfaces, RespectsGatesOfOverlapHeightAndDistance) {
   const AGraph house = test::MakeHouse();
   Scene scene;
-  EXPECT_FALSE(scene.Of(house, scene.Add({8.2, 1}, {8.2, 5})).valid());             // 0.8 m off
-  EXPECT_FALSE(scene.Of(house, scene.Add({9.0, 6.5}, {9.0, 8.0})).valid());         // beyond the wall's end
-  EXPECT_FALSE(scene.Of(house, scene.Add({9.0, 1}, {9.0, 5}, 2.7, 5.0)).valid());   // a storey higher
+  EXPECT_FALSE(scene.Of(house, scene.Add({8.2, 1}, {8.2, 5})).valid());            // 0.8 m off
+  EXPECT_FALSE(scene.Of(house, scene.Add({9.0, 6.5}, {9.0, 8.0})).valid());        // beyond the wall's end
+  EXPECT_FALSE(scene.Of(house, scene.Add({9.0, 1}, {9.0, 5}, 2.7, 5.0)).valid());  // a storey higher
   EXPECT_TRUE(scene.Of(house, scene.Add({9.0, 1}, {9.0, 5})).valid());
 }
 
@@ -403,6 +403,45 @@ TEST(MatchLevels, TheBestSeenFloorIsWhereTheRobotStandsWhileTheHeightIsAGuess) {
   const auto known = MatchLevels(scene.map, house, Eigen::Isometry3d::Identity(), {});
   ASSERT_EQ(known.size(), 1u);
   EXPECT_EQ(known[0].map_surface, 3u);
+}
+
+// A map with levels in room 2 of the house, each of `points` points.
+class Levels {
+ public:
+  void Add(double z_m, int points, SurfaceKind kind = SurfaceKind::kFloor) {
+    MapSurface level;
+    level.kind = kind;
+    level.plane.n = (kind == SurfaceKind::kFloor ? 1 : -1) * Eigen::Vector3d::UnitZ();
+    level.observations.emplace_back();
+    for (int k = 0; k < points; ++k) level.observations[0].stats.Add({6 + 0.01 * (k % 100), 1 + 0.01 * (k / 100), z_m});
+    scene_.map.surfaces.push_back(level);
+  }
+  [[nodiscard]] std::vector<uint32_t> Matched() const {
+    std::vector<uint32_t> out;
+    for (const Match& m : MatchLevels(scene_.map, test::MakeHouse(), Eigen::Isometry3d::Identity(), {})) out.push_back(m.map_surface);
+    return out;
+  }
+
+ private:
+  Scene scene_;
+};
+
+TEST(MatchLevels, ABenchTakenForTheFloorGivesWayToTheFloorBelowIt) {
+  Levels levels;
+  levels.Add(0.0, 300);  // the bench, where the plan has the floor: the place is 0.3 m too low
+  EXPECT_EQ(levels.Matched(), std::vector<uint32_t>{0});
+  levels.Add(-0.3, 50);
+  EXPECT_EQ(levels.Matched(), std::vector<uint32_t>{0});  // not yet
+  levels.Add(-0.31, 100);
+  EXPECT_EQ(levels.Matched(), (std::vector<uint32_t>{1, 2}));
+}
+
+TEST(MatchLevels, NeitherTablesNorAFewReflectionsBelowTheFloorMoveIt) {
+  Levels levels;
+  levels.Add(0.02, 300);
+  levels.Add(0.75, 900);  // tables, seen better than the floor under them
+  levels.Add(-0.9, 80);  // a glossy floor
+  EXPECT_EQ(levels.Matched(), std::vector<uint32_t>{0});
 }
 
 TEST(CouplingOptions, CheckNamesFieldValueAndRule) {

@@ -12,6 +12,7 @@ namespace {
 
 constexpr double kKnownHeightWeight = 2;  // what another height must have more of than the one that levels are matched at
 constexpr double kReflections = 0.3;      // of a floor's points may lie below it
+constexpr double kStep_m = 0.12;          // what is so much lower is no unevenness of the same floor
 
 // Points of a floor or ceiling in a room.
 struct LevelPoints {
@@ -20,11 +21,30 @@ struct LevelPoints {
   double count;
 };
 
+// All that faces upwards in one room, by height.
+class Profile {
+ public:
+  void Add(double offset_m, double count) { steps_.emplace_back(offset_m, count); }
+  void Close() {
+    std::sort(steps_.begin(), steps_.end());
+    double sum = 0;
+    for (auto& [offset_m, count] : steps_) count = sum += count;
+  }
+  // How many points lie lower.
+  [[nodiscard]] double Below(double offset_m) const {
+    const auto at = std::lower_bound(steps_.begin(), steps_.end(), std::pair(offset_m, 0.0));
+    return at == steps_.begin() ? 0 : std::prev(at)->second;
+  }
+
+ private:
+  std::vector<std::pair<double, double>> steps_;  // once closed: an offset, and how many points are as high or lower
+};
+
 class LevelMatcher {
  public:
   // Only points within reach_m of a room's level are looked at.
   LevelMatcher(const SGraph& map, const AGraph& plan, const Eigen::Isometry3d& T_plan_map, double reach_m)
-      : map_(map), rooms_(plan.rooms.size()), points_(map.surfaces.size()) {
+      : map_(map), rooms_(plan.rooms.size()), points_(map.surfaces.size()), profiles_(plan.rooms.size()) {
     for (uint32_t i = 0; i < map.surfaces.size(); ++i) {
       if (map.surfaces[i].kind == SurfaceKind::kWall) continue;
       for (const Observation& o : map.surfaces[i].observations) {
@@ -32,17 +52,22 @@ class LevelMatcher {
         for (size_t r = 0; r < rooms_; ++r) {
           const Room& room = plan.rooms[r];
           const double offset_m = p.z() - (IsFloor(i) ? room.floor_z_m : room.ceiling_z_m);
-          if (std::abs(offset_m) <= reach_m && Contains(room, p.head<2>())) points_[i].push_back({r, offset_m, o.stats.count()});
+          if (std::abs(offset_m) > reach_m || !Contains(room, p.head<2>())) continue;
+          points_[i].push_back({r, offset_m, o.stats.count()});
+          if (IsFloor(i)) profiles_[r].Add(offset_m, o.stats.count());
         }
       }
     }
+    for (Profile& profile : profiles_) profile.Close();
   }
 
-  // Each surface with the room whose level, `height_m` higher than planned, most of its points are within `gate_m` of.
+  // Each surface, but furniture, with the room whose level, `height_m` higher than planned, most of its points are within `gate_m` of.
   [[nodiscard]] std::vector<Match> FindAll(double height_m, double gate_m) const {
     std::vector<Match> matches;
     for (uint32_t i = 0; i < points_.size(); ++i) {
-      if (auto found = Find(i, height_m, gate_m)) matches.push_back(std::move(*found));
+      auto found = Find(i, height_m, gate_m);
+      if (!found || (IsFloor(i) && IsFurniture(*found))) continue;
+      matches.push_back(std::move(*found));
     }
     return matches;
   }
@@ -50,18 +75,11 @@ class LevelMatcher {
   // How well the floors seen fit floors `height_m` higher than planned. Through a floor nothing is seen: where it would be, what lies lower
   // in the same room speaks against it.
   [[nodiscard]] double Support(double height_m, double gate_m) const {
-    std::vector<double> on(rooms_, 0), below(rooms_, 0);
-    for (uint32_t i = 0; i < points_.size(); ++i) {
-      if (!IsFloor(i)) continue;
-      for (const LevelPoints& p : points_[i]) {
-        if (std::abs(p.offset_m - height_m) <= gate_m)
-          on[p.room] += p.count;
-        else if (p.offset_m < height_m)
-          below[p.room] += p.count;
-      }
-    }
     double support = 0;
-    for (size_t r = 0; r < rooms_; ++r) support += below[r] < kReflections * on[r] ? on[r] : 0;
+    for (const Profile& profile : profiles_) {
+      const double below = profile.Below(height_m - gate_m), on = profile.Below(height_m + gate_m) - below;
+      if (below < kReflections * on) support += on;
+    }
     return support;
   }
 
@@ -97,9 +115,20 @@ class LevelMatcher {
     return Match{i, SurfaceId(), RoomId(room), offsets[room] / *best, 0, {}};
   }
 
+  // Something to sit on or to put things on: more than reflections lies lower in the same room. That may be of a floor that goes on through
+  // other rooms, and is matched to one of those.
+  [[nodiscard]] bool IsFurniture(const Match& floor) const {
+    double count = 0;
+    for (const LevelPoints& p : points_[floor.map_surface]) {
+      if (p.room == floor.room.index() && std::abs(p.offset_m - floor.offset_m) <= kStep_m) count += p.count;
+    }
+    return profiles_[floor.room.index()].Below(floor.offset_m - kStep_m) >= kReflections * count;
+  }
+
   const SGraph& map_;
   size_t rooms_;
   std::vector<std::vector<LevelPoints>> points_;  // of each surface; none of walls
+  std::vector<Profile> profiles_;                 // of each room
 };
 
 }  // namespace

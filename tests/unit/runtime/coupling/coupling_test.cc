@@ -416,6 +416,12 @@ class Levels {
     for (int k = 0; k < points; ++k) level.observations[0].stats.Add({6 + 0.01 * (k % 100), 1 + 0.01 * (k / 100), z_m});
     scene_.map.surfaces.push_back(level);
   }
+  // A view more of a level.
+  void AddTo(size_t level, const Eigen::Vector3d& at, int points) {
+    std::vector<Observation>& views = scene_.map.surfaces[level].observations;
+    views.emplace_back();
+    for (int k = 0; k < points; ++k) views.back().stats.Add(at + Eigen::Vector3d(0.001 * k, 0, 0));
+  }
   [[nodiscard]] std::vector<uint32_t> Matched() const {
     std::vector<uint32_t> out;
     for (const Match& m : MatchLevels(scene_.map, test::MakeHouse(), Eigen::Isometry3d::Identity(), {})) out.push_back(m.map_surface);
@@ -440,7 +446,15 @@ TEST(MatchLevels, NeitherTablesNorAFewReflectionsBelowTheFloorMoveIt) {
   Levels levels;
   levels.Add(0.02, 300);
   levels.Add(0.75, 900);  // tables, seen better than the floor under them
-  levels.Add(-0.9, 80);  // a glossy floor
+  levels.Add(-0.9, 80);   // a glossy floor
+  EXPECT_EQ(levels.Matched(), std::vector<uint32_t>{0});
+}
+
+TEST(MatchLevels, ABenchIsNoFloorWhereTheFloorUnderItIsMatchedToTheNextRoom) {
+  Levels levels;
+  levels.Add(0.0, 100);
+  levels.AddTo(0, {1, 1, 0}, 500);  // goes on into room 0, where more of it was seen
+  levels.Add(0.22, 80);
   EXPECT_EQ(levels.Matched(), std::vector<uint32_t>{0});
 }
 

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-
 #include <cmath>
 #include <numbers>
 
@@ -51,6 +50,58 @@ TEST(Doorways, LeavesKnowTheirDoorwayAndWall) {
     }
     if (e.kind == ElementKind::kWall) {
       EXPECT_EQ(graph.walls[e.wall.index()].guid, e.guid);
+    }
+  }
+}
+
+PlanLeaf Swing(const Eigen::Vector2d& to_jamb, const Eigen::Vector2d& opens_to, double width_m = 0) {
+  return {LeafOperation::kSwing, to_jamb, opens_to, width_m};
+}
+
+DoorLeaf Swing(Jamb jamb, DoorwaySide opens_to, double width_m = 0) { return {LeafOperation::kSwing, jamb, opens_to, width_m}; }
+
+// TwoRooms; "D" leads from West to East along +x, "E" from West to the outside along -y.
+PlanIr WithLeaves(const std::vector<PlanLeaf>& of_d, const std::vector<PlanLeaf>& of_e) {
+  PlanIr plan = test::TwoRooms();
+  for (PlanElement& e : plan.elements) {
+    if (e.guid == "D") e.leaves = of_d;
+    if (e.guid == "E") e.leaves = of_e;
+  }
+  return plan;
+}
+
+TEST(Doorways, LeavesAreToldInTheDoorwaysOwnTerms) {
+  const AGraph graph = Build(WithLeaves({Swing({0, -1}, {1, 0}, 0.3), Swing({0, 1}, {-1, 0}, 0.6)}, {Swing({1, 0}, {0, 1})})).graph;
+  const std::vector<DoorLeaf> of_d = {Swing(Jamb::kLeft, DoorwaySide::kRoomA, 0.6), Swing(Jamb::kRight, DoorwaySide::kRoomB, 0.3)};
+  EXPECT_EQ(FindDoorway(graph, "D")->leaves, of_d);
+  // Going out, to the south, east is on the left.
+  EXPECT_EQ(FindDoorway(graph, "E")->leaves, std::vector<DoorLeaf>{Swing(Jamb::kLeft, DoorwaySide::kRoomA)});
+}
+
+TEST(Doorways, WhatLeavesPointAskewToIsUnknown) {
+  const AGraph graph = Build(WithLeaves({Swing({1, 0}, {0, 1})}, {})).graph;
+  EXPECT_EQ(FindDoorway(graph, "D")->leaves, std::vector<DoorLeaf>{Swing(Jamb::kUnknown, DoorwaySide::kUnknown)});
+  EXPECT_TRUE(FindDoorway(graph, "E")->leaves.empty());
+}
+
+TEST(Doorways, NeitherMotionNorOrderChangesTheLeaves) {
+  const PlanIr plan = WithLeaves({Swing({0, -1}, {1, 0})}, {Swing({1, 0}, {0, 1})});
+  const AGraph still = Build(plan).graph;
+  for (const double yaw_rad : {0.3, 1.9, -2.6}) {
+    const AGraph moved = Build(test::Moved(plan, yaw_rad, {40, -7, 3})).graph;
+    for (const char* door : {"D", "E"}) EXPECT_EQ(FindDoorway(moved, door)->leaves, FindDoorway(still, door)->leaves) << door << yaw_rad;
+  }
+  for (uint64_t seed = 1; seed <= 5; ++seed) {
+    const AGraph other = Build(test::Shuffled(plan, seed)).graph;
+    for (const char* door : {"D", "E"}) {
+      const Doorway *a = FindDoorway(still, door), *b = FindDoorway(other, door);
+      ASSERT_TRUE(a != nullptr && b != nullptr);
+      const auto room = [](const AGraph& g, const Doorway& d) {
+        return RoomName(g, d.leaves.at(0).opens_to == DoorwaySide::kRoomA ? d.room_a : d.room_b);
+      };
+      EXPECT_EQ(room(other, *b), room(still, *a));
+      const bool turned = std::cos(a->yaw_rad - b->yaw_rad) < 0;
+      EXPECT_EQ(a->leaves[0].jamb == b->leaves[0].jamb, !turned);
     }
   }
 }

@@ -203,7 +203,7 @@ PlanIr Moved(const PlanIr& plan, double yaw_rad, const Eigen::Vector3d& translat
       move2(arc.center);
       arc.start_rad += yaw_rad;
     }
-    for (PlanLeaf& leaf : e.leaves) {
+    for (compiler::PlanLeaf& leaf : e.leaves) {
       leaf.to_jamb = rotation * leaf.to_jamb;
       leaf.opens_to = rotation * leaf.opens_to;
     }

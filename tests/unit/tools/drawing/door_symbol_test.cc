@@ -138,8 +138,9 @@ TEST_F(DoorSymbolTest, MatchesTheGoldenFile) {
                                                   {leaf(Op::kLifting, Jamb::kUnknown, kB)},
                                                   {leaf(Op::kSwing, kL, kB), leaf(Op::kFixed, kR)}};
   std::string svg =
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" class=\"plan\" viewBox=\"0 0 1400 900\">\n<style>\n" + FloorPlanStyle() + "</style>\n";
-  const Sheet sheet({0, 0}, {14, 9}, 0);
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 1400 950\">\n<style>\n.opening{fill:#ddd}\n.leaf{stroke:#000;stroke-width:4;"
+      "fill:none}\n.swing,.sill{stroke:#888;fill:none}\n.lintel{stroke:#888;stroke-dasharray:8 5;fill:none}\n</style>\n";
+  const Sheet sheet({0, 0}, {14, 9.5}, 0);
   AGraph g;
   for (size_t i = 0; i < all.size(); ++i) {
     Doorway d;

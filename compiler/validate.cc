@@ -7,6 +7,7 @@
 
 #include "compiler/validate_graph.h"
 #include "schema/agraph_reader.h"
+#include "schema/counted.h"
 
 namespace plumb::compiler {
 namespace {
@@ -44,9 +45,8 @@ CompileResult ReadGraph(const std::string& path) {
 }
 
 std::string Contents(const AGraph& graph) {
-  const auto count = [](size_t n, const char* what) { return fmt::format("{} {}{}", n, what, n == 1 ? "" : "s"); };
-  return count(graph.rooms.size(), "room") + ", " + count(graph.surfaces.size(), "wall surface") + ", " +
-         count(graph.storeys.size(), "storey");
+  return Counted(graph.rooms.size(), "room") + ", " + Counted(graph.surfaces.size(), "wall surface") + ", " +
+         Counted(graph.storeys.size(), "storey");
 }
 
 // Rooms that have a twin which a robot in them cannot tell them from, wherever it can drive from there.
@@ -89,8 +89,8 @@ Report ReportOf(const std::string& path, const CompileResult& result, bool stric
     out.answer = "no robot can localize in this: it cannot be read as a plan";
   } else if (errors + warnings > 0) {
     out.outcome = Outcome::kFindings;
-    out.answer = fmt::format("no robot should localize in this before {} finding{} mended ({})", errors + warnings,
-                             errors + warnings == 1 ? " is" : "s are", Contents(*result.graph));
+    out.answer = fmt::format("no robot should localize in this before {} {} mended ({})", Counted(errors + warnings, "finding"),
+                             errors + warnings == 1 ? "is" : "are", Contents(*result.graph));
   } else {
     Judge(*result.graph, judge_places, result.diagnostics.Count(Severity::kWarning), out);
   }

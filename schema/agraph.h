@@ -18,11 +18,25 @@
 namespace plumb {
 
 inline constexpr uint32_t kSchemaMajor = 2;
-inline constexpr uint32_t kSchemaMinor = 0;
+inline constexpr uint32_t kSchemaMinor = 1;
 
 // As in agraph.fbs, same order.
 enum class ElementKind : uint8_t {
-  kOther, kWall, kCurtainWall, kSlab, kRoof, kColumn, kBeam, kStair, kRailing, kDoor, kWindow, kFurniture, kCovering, kProxy, kGround
+  kOther,
+  kWall,
+  kCurtainWall,
+  kSlab,
+  kRoof,
+  kColumn,
+  kBeam,
+  kStair,
+  kRailing,
+  kDoor,
+  kWindow,
+  kFurniture,
+  kCovering,
+  kProxy,
+  kGround
 };
 enum class Material : uint8_t { kOpaque, kGlass };
 enum class FactorKind : uint8_t { kWallSurfaces, kRoomSurfaces, kDoorwayRooms, kStoreyRoom };
@@ -69,8 +83,8 @@ using Ring = std::vector<Eigen::Vector2d>;  // not closed: the last point is not
 struct Room {
   std::string guid, name;  // of the source's space (IfcSpace) where one matches, else empty guid and a made name
   StoreyId storey;
-  Ring polygon;              // outer boundary, counter-clockwise
-  std::vector<Ring> holes;   // clockwise
+  Ring polygon;             // outer boundary, counter-clockwise
+  std::vector<Ring> holes;  // clockwise
   double area_m2 = 0;
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  // pose: area centroid at floor height ...
   double yaw_rad = 0;                                // ... and the direction of the longest side, in [0, pi/2)
@@ -78,15 +92,31 @@ struct Room {
   std::vector<SurfaceId> surfaces;  // in the order of the outer boundary, then of the holes
 };
 
+// How a door's leaf moves. kDoubleActing: swings to both sides; kLifting: rolls or swings up; kFixed: does not move.
+enum class LeafOperation : uint8_t { kUnknown, kSwing, kDoubleActing, kSliding, kFolding, kRevolving, kLifting, kFixed };
+// Of a doorway, as seen by someone who passes from room_a to room_b: kLeft is the one that lies along (-sin yaw, cos yaw) from its middle.
+enum class Jamb : uint8_t { kUnknown, kLeft, kRight };
+enum class DoorwaySide : uint8_t { kUnknown, kRoomA, kRoomB };
+
+// One leaf of a door in the doorway's own terms, so that no motion of the plan changes it. What the source does not tell is unknown.
+struct DoorLeaf {
+  LeafOperation operation = LeafOperation::kUnknown;
+  Jamb jamb = Jamb::kUnknown;  // where it hangs; of a sliding leaf the one that it opens towards; of a fixed one the nearer
+  DoorwaySide opens_to = DoorwaySide::kUnknown;  // of a swinging, folding or lifting leaf
+  double width_m = 0;                            // 0: unknown
+  friend bool operator==(const DoorLeaf&, const DoorLeaf&) = default;
+};
+
 struct Doorway {
   std::string guid, name;
   StoreyId storey;
   WallId wall;
-  RoomId room_a, room_b;  // none: outside
+  RoomId room_a, room_b;                               // none: outside
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  // middle of the opening on the wall's centre line, at the sill
   double yaw_rad = 0;                                  // direction of the passage: from room_a to room_b
   double width_m = 0, height_m = 0;
-  bool has_leaf = true;  // false: an opening without a door
+  bool has_leaf = true;          // false: an opening without a door
+  std::vector<DoorLeaf> leaves;  // one or two, the left one first where both are known; empty: unknown, or none (has_leaf)
 };
 
 struct Window {
@@ -144,12 +174,12 @@ struct Mesh {
 struct Alias {
   double yaw_rad = 0;
   Eigen::Vector3d translation = Eigen::Vector3d::Zero();
-  double overlap_ratio = 0;         // share of the rooms' wall sections that coincide with those of their twins
-  StoreyId from_storey, to_storey;  // of the rooms and of their twins; none: several
-  std::vector<RoomId> rooms, twins;  // rooms[i] falls on twins[i]
-  double tolerance_m = 0;            // within which sections coincide
-  double section_length_m = 0;       // of the rooms' wall sections, mean of the heights looked at
-  bool closed = false;               // no doorway leads from the rooms, or from their twins, to a room that is none of them
+  double overlap_ratio = 0;            // share of the rooms' wall sections that coincide with those of their twins
+  StoreyId from_storey, to_storey;     // of the rooms and of their twins; none: several
+  std::vector<RoomId> rooms, twins;    // rooms[i] falls on twins[i]
+  double tolerance_m = 0;              // within which sections coincide
+  double section_length_m = 0;         // of the rooms' wall sections, mean of the heights looked at
+  bool closed = false;                 // no doorway leads from the rooms, or from their twins, to a room that is none of them
   std::vector<ElementId> differences;  // what has no counterpart, longest first
 };
 

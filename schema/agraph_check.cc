@@ -95,6 +95,7 @@ class Checker {
       Reference("doorway", i, d.wall, walls, true);
       Reference("doorway", i, d.room_a, graph_.rooms.size(), true);
       Reference("doorway", i, d.room_b, graph_.rooms.size(), true);
+      for (const DoorLeaf& l : d.leaves) CheckLeaf(i, l);
     }
     for (size_t i = 0; i < graph_.windows.size(); ++i) {
       const Window& w = graph_.windows[i];
@@ -115,6 +116,12 @@ class Checker {
       Reference("open boundary", i, b.room_a, graph_.rooms.size(), false);
       Reference("open boundary", i, b.room_b, graph_.rooms.size(), false);
     }
+  }
+  void CheckLeaf(size_t doorway, const DoorLeaf& l) {
+    Finite("doorway", doorway, l.width_m);
+    if (l.operation > LeafOperation::kFixed || l.jamb > Jamb::kRight || l.opens_to > DoorwaySide::kRoomB)
+      Fault("doorway", doorway, "how its leaf opens is unknown");
+    if (l.width_m < 0) Fault("doorway", doorway, "the width of its leaf is negative");
   }
   void CheckElements() {
     for (size_t i = 0; i < graph_.elements.size(); ++i) {

@@ -37,6 +37,20 @@ Json Ids(const std::vector<Id<Tag>>& ids) {
   return out;
 }
 
+// Of a doorway, with `opens_to` as a position in its `rooms`.
+Json Leaves(const Doorway& d) {
+  Json out = Json::array();
+  for (const DoorLeaf& l : d.leaves) {
+    Json entry;
+    entry["operation"] = l.operation == LeafOperation::kUnknown ? Json(nullptr) : Json(NameOf(l.operation));
+    entry["jamb"] = l.jamb == Jamb::kUnknown ? Json(nullptr) : Json(l.jamb == Jamb::kLeft ? "left" : "right");
+    entry["opens_to"] = l.opens_to == DoorwaySide::kUnknown ? Json(nullptr) : Json(l.opens_to == DoorwaySide::kRoomA ? 0 : 1);
+    entry["width_m"] = l.width_m > 0 ? Json(Metres(l.width_m)) : Json(nullptr);
+    out.push_back(std::move(entry));
+  }
+  return out;
+}
+
 // The entries that every array has: id, guid, name, storey.
 Json Entry(size_t id, const std::string& guid, const std::string& name, StoreyId storey) {
   Json out;
@@ -130,6 +144,7 @@ Json Doorways(const AGraph& g) {
     entry["width_m"] = Metres(d.width_m);
     entry["height_m"] = Metres(d.height_m);
     entry["has_leaf"] = d.has_leaf;
+    entry["leaves"] = Leaves(d);
     out.push_back(std::move(entry));
   }
   return out;
@@ -203,6 +218,20 @@ Json AllLookAlikes(const AGraph& g) {
 }
 
 }  // namespace
+
+const char* NameOf(LeafOperation operation) {
+  switch (operation) {
+    case LeafOperation::kUnknown: break;
+    case LeafOperation::kSwing: return "swing";
+    case LeafOperation::kDoubleActing: return "double-acting";
+    case LeafOperation::kSliding: return "sliding";
+    case LeafOperation::kFolding: return "folding";
+    case LeafOperation::kRevolving: return "revolving";
+    case LeafOperation::kLifting: return "lifting";
+    case LeafOperation::kFixed: return "fixed";
+  }
+  return "unknown";
+}
 
 std::string AGraphToJson(const AGraph& g) {
   Json out;

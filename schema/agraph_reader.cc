@@ -46,6 +46,15 @@ class Copier {
     for (uint32_t number : *numbers) out.emplace_back(number);
   }
 
+  void Leaves(const flatbuffers::Vector<flatbuffers::Offset<fb::DoorLeaf>>* leaves, std::vector<DoorLeaf>& out) {
+    if (leaves == nullptr || !Spend(size_t{leaves->size()} * sizeof(DoorLeaf))) return;
+    out.reserve(leaves->size());
+    for (const fb::DoorLeaf* l : *leaves) {
+      out.push_back({static_cast<LeafOperation>(l->operation()), static_cast<Jamb>(l->jamb()), static_cast<DoorwaySide>(l->opens_to()),
+                     l->width_m()});
+    }
+  }
+
  private:
   bool Spend(size_t bytes) {
     exhausted_ = exhausted_ || bytes > budget_bytes_;
@@ -70,8 +79,8 @@ void ReadStructure(const fb::AGraph& in, Copier& copy, AGraph& out) {
     return Storey{copy.Str(s.guid()), copy.Str(s.name()), s.elevation_m(), s.height_m()};
   });
   ReadAll(in.walls(), out.walls, [&](const fb::Wall& w) {
-    return Wall{copy.Str(w.guid()), copy.Str(w.name()),    copy.Str(w.type()), StoreyId(w.storey()), Vec(w.axis_start()), Vec(w.axis_end()),
-                w.thickness_m(), w.z_min_m(), w.z_max_m(), w.external()};
+    return Wall{copy.Str(w.guid()), copy.Str(w.name()), copy.Str(w.type()), StoreyId(w.storey()), Vec(w.axis_start()),
+                Vec(w.axis_end()),  w.thickness_m(),    w.z_min_m(),        w.z_max_m(),          w.external()};
   });
   ReadAll(in.surfaces(), out.surfaces, [](const fb::Surface& s) {
     Surface surface{WallId(s.wall()), StoreyId(s.storey()), RoomId(s.room()), Vec(s.normal()), s.d_m(),
@@ -98,8 +107,10 @@ void ReadStructure(const fb::AGraph& in, Copier& copy, AGraph& out) {
 
 void ReadOpenings(const fb::AGraph& in, Copier& copy, AGraph& out) {
   ReadAll(in.doorways(), out.doorways, [&](const fb::Doorway& d) {
-    return Doorway{copy.Str(d.guid()), copy.Str(d.name()), StoreyId(d.storey()), WallId(d.wall()), RoomId(d.room_a()), RoomId(d.room_b()),
-                   Vec(d.position()),  d.yaw_rad(),        d.width_m(),          d.height_m(),     d.has_leaf()};
+    Doorway doorway{copy.Str(d.guid()), copy.Str(d.name()), StoreyId(d.storey()), WallId(d.wall()), RoomId(d.room_a()), RoomId(d.room_b()),
+                    Vec(d.position()),  d.yaw_rad(),        d.width_m(),          d.height_m(),     d.has_leaf(),       {}};
+    copy.Leaves(d.leaves(), doorway.leaves);
+    return doorway;
   });
   ReadAll(in.windows(), out.windows, [&](const fb::Window& w) {
     return Window{copy.Str(w.guid()), copy.Str(w.name()), StoreyId(w.storey()), WallId(w.wall()),
@@ -131,8 +142,17 @@ void ReadRest(const fb::AGraph& in, Copier& copy, AGraph& out) {
                    DoorwayId(e.doorway())};
   });
   ReadAll(in.aliases(), out.aliases, [&](const fb::Alias& a) {
-    Alias alias{a.yaw_rad(), Vec(a.translation()), a.overlap_ratio(), StoreyId(a.from_storey()), StoreyId(a.to_storey()), {}, {},
-                a.tolerance_m(), a.section_length_m(), a.closed(), {}};
+    Alias alias{a.yaw_rad(),
+                Vec(a.translation()),
+                a.overlap_ratio(),
+                StoreyId(a.from_storey()),
+                StoreyId(a.to_storey()),
+                {},
+                {},
+                a.tolerance_m(),
+                a.section_length_m(),
+                a.closed(),
+                {}};
     copy.Numbers(a.rooms(), alias.rooms);
     copy.Numbers(a.twins(), alias.twins);
     copy.Numbers(a.differences(), alias.differences);

@@ -24,6 +24,11 @@ flatbuffers::Offset<fb::Ring> Pack(Builder& b, const Ring& ring) {
   return fb::CreateRing(b, b.CreateVectorOfStructs(points));
 }
 
+flatbuffers::Offset<fb::DoorLeaf> Pack(Builder& b, const DoorLeaf& l) {
+  return fb::CreateDoorLeaf(b, static_cast<fb::LeafOperation>(l.operation), static_cast<fb::Jamb>(l.jamb),
+                            static_cast<fb::DoorwaySide>(l.opens_to), l.width_m);
+}
+
 // Packs each item with `pack` into a vector of tables.
 template <class Items, class Function>
 auto PackAll(Builder& b, const Items& items, Function pack) {
@@ -91,8 +96,10 @@ auto PackDoorways(Builder& b, const AGraph& g) {
     const fb::Vec3 position = Pack(d.position);
     const auto guid = Str(b, d.guid);
     const auto name = Str(b, d.name);
-    return fb::CreateDoorway(b, guid, name, d.storey.value, d.wall.value, d.room_a.value, d.room_b.value, &position,
-                             d.yaw_rad, d.width_m, d.height_m, d.has_leaf);
+    flatbuffers::Offset<flatbuffers::Vector<flatbuffers::Offset<fb::DoorLeaf>>> leaves;
+    if (!d.leaves.empty()) leaves = PackAll(b, d.leaves, [&](const DoorLeaf& l) { return Pack(b, l); });
+    return fb::CreateDoorway(b, guid, name, d.storey.value, d.wall.value, d.room_a.value, d.room_b.value, &position, d.yaw_rad, d.width_m,
+                             d.height_m, d.has_leaf, leaves);
   });
 }
 
@@ -133,8 +140,8 @@ auto PackElements(Builder& b, const AGraph& g) {
     const auto guid = Str(b, e.guid);
     const auto name = Str(b, e.name);
     const auto type = Str(b, e.type);
-    return fb::CreateElement(b, guid, name, type, static_cast<fb::ElementKind>(e.kind),
-                             static_cast<fb::Material>(e.material), e.storey.value, e.wall.value, e.doorway.value);
+    return fb::CreateElement(b, guid, name, type, static_cast<fb::ElementKind>(e.kind), static_cast<fb::Material>(e.material),
+                             e.storey.value, e.wall.value, e.doorway.value);
   });
 }
 

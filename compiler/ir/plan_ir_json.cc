@@ -97,6 +97,12 @@ Json FromElement(const PlanElement& e) {
         {{"center", FromVector(arc.center)}, {"radius_m", arc.radius_m}, {"start_rad", arc.start_rad}, {"sweep_rad", arc.sweep_rad}});
   }
   Put(out, "external", e.external);
+  for (const PlanLeaf& leaf : e.leaves) {
+    out["leaves"].push_back({{"operation", static_cast<int>(leaf.operation)},
+                             {"to_jamb", FromVector(leaf.to_jamb)},
+                             {"opens_to", FromVector(leaf.opens_to)},
+                             {"width_m", leaf.width_m}});
+  }
   return out;
 }
 
@@ -126,6 +132,13 @@ PlanElement ToElement(const Json& in) {
     }
   }
   out.external = Get<bool>(in, "external");
+  if (in.contains("leaves")) {
+    for (const Json& leaf : in.at("leaves")) {
+      out.leaves.push_back({static_cast<LeafOperation>(GetEnum(leaf, "operation", static_cast<int>(LeafOperation::kFixed))),
+                            ToVector<Eigen::Vector2d>(leaf.at("to_jamb")), ToVector<Eigen::Vector2d>(leaf.at("opens_to")),
+                            Get<double>(leaf, "width_m")});
+    }
+  }
   return out;
 }
 

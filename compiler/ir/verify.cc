@@ -41,6 +41,10 @@ void VerifyElement(Faults& faults, const PlanIr& plan, size_t i) {
   VerifySolid(faults, "element", i, "uncut solid", e.uncut);
   faults.Require(!e.thickness_m || (std::isfinite(*e.thickness_m) && *e.thickness_m > 0), "element {}: its thickness is not positive", i);
   faults.Require(!e.axis || (e.axis->first.allFinite() && e.axis->second.allFinite()), "element {}: its axis is not finite", i);
+  for (const PlanLeaf& leaf : e.leaves) {
+    faults.Require(leaf.to_jamb.allFinite() && leaf.opens_to.allFinite() && std::isfinite(leaf.width_m) && leaf.width_m >= 0,
+                   "element {}: a leaf is not finite or less than nothing wide", i);
+  }
   for (const Arc& arc : e.arcs) {
     const bool ok = arc.center.allFinite() && arc.radius_m > 0 && std::isfinite(arc.radius_m + arc.start_rad + arc.sweep_rad);
     faults.Require(ok, "element {}: an arc is not finite or has no radius", i);

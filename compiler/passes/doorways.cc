@@ -24,6 +24,24 @@ struct Side {
   friend bool operator==(const Side&, const Side&) = default;
 };
 
+// In the terms of a doorway that leads along the unit vector `through`. What lies in no clear direction of it is unknown.
+std::vector<DoorLeaf> LeavesIn(const std::vector<PlanLeaf>& leaves, const Eigen::Vector2d& through) {
+  constexpr double kClear = 0.5;  // cosine
+  const Eigen::Vector2d left = Rot90Ccw(through);
+  std::vector<DoorLeaf> out;
+  for (const PlanLeaf& leaf : leaves) {
+    const double to_left = leaf.to_jamb.dot(left), to_b = leaf.opens_to.dot(through);
+    DoorLeaf d;
+    d.operation = leaf.operation;
+    d.width_m = leaf.width_m;
+    if (std::abs(to_left) > kClear) d.jamb = to_left > 0 ? Jamb::kLeft : Jamb::kRight;
+    if (std::abs(to_b) > kClear) d.opens_to = to_b > 0 ? DoorwaySide::kRoomB : DoorwaySide::kRoomA;
+    out.push_back(d);
+  }
+  std::stable_sort(out.begin(), out.end(), [](const DoorLeaf& a, const DoorLeaf& b) { return a.jamb < b.jamb; });
+  return out;
+}
+
 class DoorwayMaker {
  public:
   DoorwayMaker(const PlanIr& plan, const FloorIr& floors, const RoomsByFace& rooms, const DoorwayOptions& options, AGraph& graph,
@@ -143,6 +161,9 @@ class DoorwayMaker {
     out.room_a = a.room;
     out.room_b = b.room;
     out.has_leaf = o.use == OpeningUse::kDoor;
+    for (const uint32_t e : o.fillings) {
+      if (out.leaves.empty()) out.leaves = LeavesIn(plan_.elements[e].leaves, across);
+    }
     Report(o, a, b);
     graph_.doorways.push_back(std::move(out));
     elements_.of_doorway.push_back(o.fillings);

@@ -50,7 +50,12 @@ test::SamePlanOptions MeshOptions() {
   return out;
 }
 
-TEST(SiteOffice, AsADxfDrawingIsThePlanOfTheIfc) { ExpectSame(Of("site_office/plan.ifc"), Of("site_office/plan.dxf"), {}); }
+TEST(SiteOffice, AsADxfDrawingIsThePlanOfTheIfc) {
+  const AGraph reference = Of("site_office/plan.ifc");
+  for (const Doorway& d : reference.doorways) EXPECT_EQ(d.leaves.empty(), !d.has_leaf) << d.name;
+  ExpectSame(reference, Of("site_office/plan.dxf"), {.swings = true});
+}
+
 TEST(SiteOffice, AsAMeshIsThePlanOfTheIfc) { ExpectSame(Of("site_office/plan.ifc"), Of("site_office/plan.obj"), MeshOptions()); }
 
 TEST(OfficeFloor, AsADxfDrawingIsThePlanOfTheIfc) { ExpectSame(Of("office_floor/plan.ifc"), Of("office_floor/plan.dxf"), {}); }
@@ -90,6 +95,26 @@ TEST(House, AsSvgDrawingsIsThePlanOfTheIfc) {
   test::SamePlanOptions options;
   options.T_reference_other.translation() = Eigen::Vector2d(-1, 9.5);  // the sheet's corner; y is minus the sheet's
   ExpectSame(Of("house/plan.ifc"), OfHouseStoreys("svg"), options);
+}
+
+// The model does not tell how its doors open.
+TEST(House, DoorsOpenAlikeInBothDrawings) {
+  const AGraph dxf = OfHouseStoreys("dxf");
+  for (const Doorway& d : dxf.doorways) EXPECT_EQ(d.leaves.size(), 1u) << d.name;
+  test::SamePlanOptions options;
+  options.swings = true;
+  options.T_reference_other.translation() = Eigen::Vector2d(-1, 9.5);
+  ExpectSame(dxf, OfHouseStoreys("svg"), options);
+}
+
+TEST(SamePlan, TellsADoorThatOpensAnotherWay) {
+  const AGraph reference = Of("site_office/plan.ifc");
+  AGraph other = reference;
+  other.doorways[1].leaves[0].jamb = Jamb::kLeft;
+  EXPECT_EQ(test::PlanDifferences(reference, other, {.swings = true}).size(), 1u);
+  other = reference;
+  other.doorways[1].leaves[0].opens_to = DoorwaySide::kRoomB;
+  EXPECT_EQ(test::PlanDifferences(reference, other, {.swings = true}).size(), 1u);
 }
 
 // What the comparison is worth: a plan that differs by 2 cm is not the same.

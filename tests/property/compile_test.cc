@@ -1,17 +1,19 @@
 // What holds for the whole compiler on a plan file: compiling twice gives the same bytes, and neither the order of the instances nor the
 // unit of length changes what is found.
+#include "compiler/compile.h"
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <cstdlib>
 #include <random>
 #include <string>
 #include <vector>
 
-#include "compiler/compile.h"
 #include "schema/agraph_writer.h"
 #include "schema/files.h"
 #include "tests/support/temporary_folder.h"
@@ -73,17 +75,24 @@ std::string Divided(const std::string& line, double unit) {
 
 // The same plan in feet. The file is in millimetres, its angles are directions.
 std::string InFeet(const std::string& text) {
-  constexpr std::array<const char*, 9> kWithLengths = {"=IFCCARTESIANPOINT(", "=IFCRECTANGLEPROFILEDEF(", "=IFCRECTANGLEHOLLOWPROFILEDEF(",
-                                                       "=IFCEXTRUDEDAREASOLID(", "=IFCMATERIALLAYER(", "=IFCMATERIALLAYERSETUSAGE(",
-                                                       "=IFCDOOR(", "=IFCWINDOW(", "=IFCBUILDINGSTOREY("};
+  constexpr std::array<const char*, 9> kWithLengths = {"=IFCCARTESIANPOINT(",
+                                                       "=IFCRECTANGLEPROFILEDEF(",
+                                                       "=IFCRECTANGLEHOLLOWPROFILEDEF(",
+                                                       "=IFCEXTRUDEDAREASOLID(",
+                                                       "=IFCMATERIALLAYER(",
+                                                       "=IFCMATERIALLAYERSETUSAGE(",
+                                                       "=IFCDOOR(",
+                                                       "=IFCWINDOW(",
+                                                       "=IFCBUILDINGSTOREY("};
   std::vector<std::string> lines = LinesOf(text);
   for (std::string& line : lines) {
     if (line.find(".LENGTHUNIT.,.MILLI.,.METRE.") != std::string::npos) {
       const std::string id = line.substr(0, line.find('='));
-      line = id + "=IFCCONVERSIONBASEDUNIT(#9003,.LENGTHUNIT.,'FOOT',#9002);\n"
-                  "#9001=IFCSIUNIT(*,.LENGTHUNIT.,$,.METRE.);\n"
-                  "#9002=IFCMEASUREWITHUNIT(IFCLENGTHMEASURE(0.3048),#9001);\n"
-                  "#9003=IFCDIMENSIONALEXPONENTS(1,0,0,0,0,0,0);";
+      line = id +
+             "=IFCCONVERSIONBASEDUNIT(#9003,.LENGTHUNIT.,'FOOT',#9002);\n"
+             "#9001=IFCSIUNIT(*,.LENGTHUNIT.,$,.METRE.);\n"
+             "#9002=IFCMEASUREWITHUNIT(IFCLENGTHMEASURE(0.3048),#9001);\n"
+             "#9003=IFCDIMENSIONALEXPONENTS(1,0,0,0,0,0,0);";
     }
     if (std::any_of(kWithLengths.begin(), kWithLengths.end(), [&](const char* type) { return line.find(type) != std::string::npos; }))
       line = Divided(line, 304.8);
@@ -100,11 +109,24 @@ std::string Describe(const AGraph& g) {
     lines.push_back(fmt::format("room {} {} area {} floor {} ceiling {} corners {} holes {} surfaces {}", r.name, r.guid, number(r.area_m2),
                                 number(r.floor_z_m), number(r.ceiling_z_m), r.polygon.size(), r.holes.size(), r.surfaces.size()));
   }
+  // By places, as the order of the rooms may differ.
+  const auto leaves = [&](const Doorway& d) {
+    std::vector<std::string> out;
+    for (const DoorLeaf& l : d.leaves) {
+      const double to_left = l.jamb == Jamb::kLeft ? 1 : l.jamb == Jamb::kRight ? -1 : 0;
+      const bool known = l.opens_to != DoorwaySide::kUnknown;
+      out.push_back(fmt::format(" leaf {} {} {} into {} width {}", static_cast<int>(l.operation), number(-std::sin(d.yaw_rad) * to_left),
+                                number(std::cos(d.yaw_rad) * to_left),
+                                known ? room(l.opens_to == DoorwaySide::kRoomA ? d.room_a : d.room_b) : "?", number(l.width_m)));
+    }
+    std::sort(out.begin(), out.end());
+    return fmt::format("{}", fmt::join(out, ""));
+  };
   for (const Doorway& d : g.doorways) {
     std::array<std::string, 2> sides = {room(d.room_a), room(d.room_b)};
     std::sort(sides.begin(), sides.end());
-    lines.push_back(fmt::format("doorway {} {} / {} at {} {} width {}", d.guid, sides[0], sides[1], number(d.position.x()),
-                                number(d.position.y()), number(d.width_m)));
+    lines.push_back(fmt::format("doorway {} {} / {} at {} {} width {}{}", d.guid, sides[0], sides[1], number(d.position.x()),
+                                number(d.position.y()), number(d.width_m), leaves(d)));
   }
   for (const Wall& w : g.walls) lines.push_back(fmt::format("wall {} {} {}", w.guid, number(w.thickness_m), w.external));
   for (const Window& w : g.windows) lines.push_back(fmt::format("window {} {}", w.guid, number(w.width_m)));
@@ -135,6 +157,7 @@ TEST_F(SiteOffice, CompilingTwiceGivesTheSameBytes) { EXPECT_EQ(WriteAGraph(Comp
 TEST_F(SiteOffice, TheOrderOfInstancesDoesNotMatter) {
   const std::string expected = Describe(CompileText(text_));
   ASSERT_NE(expected.find("room "), std::string::npos);
+  ASSERT_NE(expected.find(" leaf 1 "), std::string::npos);
   for (uint64_t seed = 1; seed <= 3; ++seed) EXPECT_EQ(Describe(CompileText(Shuffled(text_, seed))), expected);
 }
 

@@ -203,6 +203,10 @@ PlanIr Moved(const PlanIr& plan, double yaw_rad, const Eigen::Vector3d& translat
       move2(arc.center);
       arc.start_rad += yaw_rad;
     }
+    for (compiler::PlanLeaf& leaf : e.leaves) {
+      leaf.to_jamb = rotation * leaf.to_jamb;
+      leaf.opens_to = rotation * leaf.opens_to;
+    }
   }
   for (auto& o : out.openings) move(o.body);
   for (auto& s : out.spaces) move(s.body);

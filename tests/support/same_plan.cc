@@ -122,6 +122,19 @@ class Comparison {
 
   RoomId InOther(RoomId id) const { return id.valid() ? room_of_a_[id.index()] : id; }
 
+  // As seen by who comes from the given room; without their widths, as some sources count frames in.
+  static std::vector<DoorLeaf> LeavesFrom(const Doorway& d, RoomId from) {
+    std::vector<DoorLeaf> out = d.leaves;
+    for (DoorLeaf& l : out) {
+      l.width_m = 0;
+      if (d.room_a == from) continue;
+      if (l.jamb != Jamb::kUnknown) l.jamb = l.jamb == Jamb::kLeft ? Jamb::kRight : Jamb::kLeft;
+      if (l.opens_to != DoorwaySide::kUnknown) l.opens_to = l.opens_to == DoorwaySide::kRoomA ? DoorwaySide::kRoomB : DoorwaySide::kRoomA;
+    }
+    std::stable_sort(out.begin(), out.end(), [](const DoorLeaf& a, const DoorLeaf& b) { return a.jamb < b.jamb; });
+    return out;
+  }
+
   void CompareDoorway(const Doorway& d) {
     const auto same = std::find_if(b_.doorways.begin(), b_.doorways.end(), [&](const Doorway& o) {
       return o.storey == d.storey && Near(d.position, o.position) && std::abs(o.width_m - d.width_m) < options_.tolerance_m;
@@ -130,6 +143,7 @@ class Comparison {
       return Say("no doorway `{}` of {:.3f} m at ({:.3f}, {:.3f})", d.name, d.width_m, d.position.x(), d.position.y());
     const auto rooms = [](RoomId a, RoomId b) { return std::multiset<uint32_t>{a.value, b.value}; };
     if (rooms(same->room_a, same->room_b) != rooms(InOther(d.room_a), InOther(d.room_b))) Say("doorway `{}` joins other rooms", d.name);
+    if (options_.swings && LeavesFrom(*same, InOther(d.room_a)) != LeavesFrom(d, d.room_a)) Say("doorway `{}` opens another way", d.name);
     if (options_.leaves && same->has_leaf != d.has_leaf) Say("doorway `{}` {} a leaf", d.name, d.has_leaf ? "is without" : "has");
   }
 

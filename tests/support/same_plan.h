@@ -14,6 +14,7 @@ struct SamePlanOptions {
   double tolerance_m = 0.01;
   bool names = true;     // of rooms
   bool leaves = true;    // whether doorways have a leaf
+  bool swings = false;   // how their leaves open
   bool heights = false;  // of floors and ceilings, which drawings do not have
 };
 

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <numbers>
-#include <set>
 
+#include "tools/drawing/door_symbol.h"
+#include "tools/drawing/plane.h"
 #include "tools/drawing/section.h"
 #include "tools/drawing/undrawn_walls.h"
 
@@ -17,11 +17,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-Vector2d Direction(double yaw_rad) { return {std::cos(yaw_rad), std::sin(yaw_rad)}; }
-Vector2d Left(const Vector2d& v) { return {-v.y(), v.x()}; }
-
-double WallThickness(const AGraph& g, WallId wall) { return wall.valid() ? g.walls[wall.index()].thickness_m : 0.2; }
-
 // A wall by its axis and thickness.
 Ring AxisRing(const Wall& w) {
   const Vector2d along = w.axis_end - w.axis_start;
@@ -29,7 +24,9 @@ Ring AxisRing(const Wall& w) {
 }
 
 // The cut never lies exactly in a horizontal face: tops of sills and benches are drawn at round heights.
-double CutHeight(const AGraph& g, StoreyId storey) { return g.storeys[storey.index()].elevation_m + kSectionHeight_m + 0.00037; }
+double CutHeight(const AGraph& g, StoreyId storey, const FloorPlanOptions& options) {
+  return g.storeys[storey.index()].elevation_m + options.section_height_m + 0.00037;
+}
 
 const char* CutClass(ElementKind kind) {
   switch (kind) {
@@ -46,8 +43,7 @@ const char* CutClass(ElementKind kind) {
 }
 
 // Walls by their triangles; where their solids do not close by axis and thickness.
-std::string DrawCut(const AGraph& g, StoreyId storey, const Sheet& sheet) {
-  const double z_m = CutHeight(g, storey);
+std::string DrawCut(const AGraph& g, StoreyId storey, const Sheet& sheet, double z_m) {
   std::string light, dark;
   const std::vector<SectionSegment> segments = SegmentsAt(g, z_m);
   const std::vector<ElementSection> sections = ClosedSections(segments);
@@ -75,10 +71,9 @@ std::string DrawRoomFloors(const AGraph& g, StoreyId storey, const Sheet& sheet)
   return out;
 }
 
-std::string DrawWindow(const AGraph& g, const Window& w, const Sheet& sheet) {
+std::string DrawWindow(const AGraph& g, const Window& w, const Sheet& sheet, double cut_m) {
   const Vector2d along = Left(Direction(w.yaw_rad)), middle = w.position.head<2>();
-  const Ring ring = RectangleAlong(middle, along, w.width_m, WallThickness(g, w.wall));
-  const double cut_m = CutHeight(g, w.storey);
+  const Ring ring = RectangleAlong(middle, along, w.width_m, w.wall.valid() ? g.walls[w.wall.index()].thickness_m : kUnknownThickness_m);
   const bool is_cut = w.position.z() < cut_m && cut_m < w.position.z() + w.height_m;
   std::string out = fmt::format("<path class=\"{}\" d=\"{}\"/>\n", is_cut ? "window" : "window-above", sheet.Closed(ring));
   const Vector2d half = 0.5 * w.width_m * along;
@@ -86,62 +81,11 @@ std::string DrawWindow(const AGraph& g, const Window& w, const Sheet& sheet) {
   return out;
 }
 
-size_t DoorwaysOf(const AGraph& g, RoomId room) {
-  return static_cast<size_t>(
-      std::count_if(g.doorways.begin(), g.doorways.end(), [room](const Doorway& d) { return d.room_a == room || d.room_b == room; }));
-}
-
-// The room into which a leaf opens, as is common where plans do not say: from outside inwards, from a corridor into the room, else into the
-// smaller.
-bool OpensTowardsB(const AGraph& g, const Doorway& d) {
-  if (!d.room_b.valid()) return false;
-  if (!d.room_a.valid()) return true;
-  const size_t ways_a = DoorwaysOf(g, d.room_a), ways_b = DoorwaysOf(g, d.room_b);
-  if (ways_a != ways_b) return ways_b < ways_a;
-  return g.rooms[d.room_b.index()].area_m2 <= g.rooms[d.room_a.index()].area_m2;
-}
-
-// The jamb at which a leaf hangs: the one nearer to a corner of the room, so that it opens against a wall.
-bool HangsAtEnd(const AGraph& g, RoomId room, const Vector2d& start, const Vector2d& end) {
-  if (!room.valid()) return false;
-  double to_start = std::numeric_limits<double>::max(), to_end = to_start;
-  for (const Vector2d& corner : g.rooms[room.index()].polygon) {
-    to_start = std::min(to_start, (corner - start).norm());
-    to_end = std::min(to_end, (corner - end).norm());
-  }
-  return to_end < to_start;
-}
-
-// A leaf standing open by 90 degrees, and the way that its free end takes.
-std::string DrawLeaf(const Vector2d& hinge, const Vector2d& latch, const Vector2d& swing, const Sheet& sheet) {
-  const Vector2d closed = latch - hinge, tip = hinge + closed.norm() * swing, open = tip - hinge;
-  // Sweep flag 1 is clockwise on the sheet.
-  const int sweep = open.x() * closed.y() - open.y() * closed.x() < 0 ? 1 : 0;
-  const std::string radius = Decimal(sheet.Length(closed.norm()));
-  return fmt::format("<path class=\"leaf\" d=\"{}\"/>\n<path class=\"swing\" d=\"M{}A{} {} 0 0 {} {}\"/>\n", sheet.Line(hinge, tip),
-                     sheet.At(tip), radius, radius, sweep, sheet.At(latch));
-}
-
-std::string DrawDoor(const AGraph& g, const Doorway& d, const Sheet& sheet) {
-  constexpr double kWidestLeaf_m = 1.4;  // wider doors have two
-  const double thickness_m = WallThickness(g, d.wall);
-  const Vector2d through = Direction(d.yaw_rad), along = Left(through), middle = d.position.head<2>();
-  const Ring ring = RectangleAlong(middle, along, d.width_m, thickness_m + 0.02);
-  std::string out = fmt::format("<path class=\"opening\" d=\"{}\"/>\n", sheet.Closed(ring));
-  const std::string edges = sheet.Line(ring[0], ring[1]) + sheet.Line(ring[2], ring[3]);
-  if (!d.has_leaf) return out + fmt::format("<path class=\"lintel\" d=\"{}\"/>\n", edges);
-  const bool to_b = OpensTowardsB(g, d);
-  const Vector2d swing = to_b ? through : Vector2d(-through);
-  const Vector2d face = middle + 0.5 * thickness_m * swing, half = 0.5 * d.width_m * along;
-  const Vector2d start = face - half, end = face + half;
-  if (d.width_m > kWidestLeaf_m) {
-    out += DrawLeaf(start, face, swing, sheet) + DrawLeaf(end, face, swing, sheet);
-  } else if (HangsAtEnd(g, to_b ? d.room_b : d.room_a, start, end)) {
-    out += DrawLeaf(end, start, swing, sheet);
-  } else {
-    out += DrawLeaf(start, end, swing, sheet);
-  }
-  return out + fmt::format("<path class=\"sill\" d=\"{}\"/>\n", edges);
+// Under a cut that goes over its lintel, through the wall.
+std::string DrawDoorBelow(const AGraph& g, const Doorway& d, const Sheet& sheet) {
+  const double thickness_m = d.wall.valid() ? g.walls[d.wall.index()].thickness_m : kUnknownThickness_m;
+  const Ring ring = RectangleAlong(d.position.head<2>(), Left(Direction(d.yaw_rad)), d.width_m, thickness_m);
+  return fmt::format("<path class=\"window-above\" d=\"{}\"/>\n", sheet.Closed(ring));
 }
 
 }  // namespace
@@ -209,18 +153,24 @@ Sheet SheetOf(const AGraph& graph, StoreyId storey) {
   return box.isEmpty() ? Sheet(Vector2d::Zero(), Vector2d::Zero(), 0.8) : Sheet(box.min(), box.max(), 0.8);
 }
 
-std::string DrawFloorPlan(const AGraph& graph, StoreyId storey, const Sheet& sheet) {
+std::string FloorPlanOptions::Check() const {
+  const bool ok = section_height_m > 0 && section_height_m <= 20;
+  return ok ? "" : fmt::format("FloorPlanOptions.section_height_m = {}; must be in (0, 20]", section_height_m);
+}
+
+std::string DrawFloorPlan(const AGraph& graph, StoreyId storey, const Sheet& sheet, const FloorPlanOptions& options) {
+  const double cut_m = CutHeight(graph, storey, options);
   std::string out = DrawRoomFloors(graph, storey, sheet);
   const double floor_m = graph.storeys[storey.index()].elevation_m;
   std::string edges;
-  for (const auto& [a, b] : EdgesSeenFromAbove(graph, floor_m - 0.1, CutHeight(graph, storey))) edges += sheet.Line(a, b);
+  for (const auto& [a, b] : EdgesSeenFromAbove(graph, floor_m - 0.1, cut_m)) edges += sheet.Line(a, b);
   if (!edges.empty()) fmt::format_to(std::back_inserter(out), "<path class=\"below\" d=\"{}\"/>\n", edges);
-  out += DrawCut(graph, storey, sheet);
+  out += DrawCut(graph, storey, sheet, cut_m);
   for (const Window& w : graph.windows) {
-    if (w.storey == storey) out += DrawWindow(graph, w, sheet);
+    if (w.storey == storey) out += DrawWindow(graph, w, sheet, cut_m);
   }
   for (const Doorway& d : graph.doorways) {
-    if (d.storey == storey) out += DrawDoor(graph, d, sheet);
+    if (d.storey == storey) out += d.height_m > options.section_height_m ? DrawDoor(graph, d, sheet) : DrawDoorBelow(graph, d, sheet);
   }
   return out;
 }

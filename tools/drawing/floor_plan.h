@@ -1,4 +1,4 @@
-// One storey drawn as a floor plan: walls cut at 1.1 m and filled, doors with their swing, windows, stairs.
+// One storey drawn as a floor plan: walls cut and filled, doors with their leaves, windows, stairs.
 #pragma once
 
 #include <Eigen/Geometry>
@@ -9,7 +9,11 @@
 
 namespace plumb::tools {
 
-inline constexpr double kSectionHeight_m = 1.1;  // above the storey's zero, as floor plans are cut
+struct FloorPlanOptions {
+  double section_height_m = 1.1;  // of the cut above the storey's zero: over sills, under lintels, as is common
+  // Empty if every field is valid; else names the field, its value and the rule.
+  [[nodiscard]] std::string Check() const;
+};
 
 // Style sheet for the classes that the drawing uses; colours are CSS variables with the light scheme as default.
 [[nodiscard]] std::string FloorPlanStyle();
@@ -24,6 +28,6 @@ inline constexpr double kSectionHeight_m = 1.1;  // above the storey's zero, as 
 [[nodiscard]] Sheet SheetOf(const AGraph& graph, StoreyId storey);
 
 // The drawing as SVG elements for that sheet.
-[[nodiscard]] std::string DrawFloorPlan(const AGraph& graph, StoreyId storey, const Sheet& sheet);
+[[nodiscard]] std::string DrawFloorPlan(const AGraph& graph, StoreyId storey, const Sheet& sheet, const FloorPlanOptions& options = {});
 
 }  // namespace plumb::tools

@@ -85,7 +85,7 @@ std::string DrawNorth(double true_north_rad, double x, double y) {
       Decimal(x), Decimal(y), kRadius, turn_deg, Decimal(letter.x()), Decimal(letter.y() + 9));
 }
 
-std::string DrawTitle(const AGraph& graph, StoreyId storey, const Sheet& sheet, double x, double y) {
+std::string DrawTitle(const AGraph& graph, StoreyId storey, const Sheet& sheet, double section_height_m, double x, double y) {
   const Storey& s = graph.storeys[storey.index()];
   const std::string file = SourceFileNames(graph.source_path);
   return fmt::format(
@@ -93,14 +93,15 @@ std::string DrawTitle(const AGraph& graph, StoreyId storey, const Sheet& sheet, 
       "<text class=\"title\" x=\"{0}\" y=\"{3}\" font-size=\"24\">floor plan 1:{4:g}, storey at {5} m, cut {6:.2f} m above; measures in "
       "m</text>"
       "<text class=\"title\" x=\"{0}\" y=\"{7}\" font-size=\"24\">{8}</text>\n",
-      Decimal(x), Decimal(y), EscapeXml(s.name), Decimal(y + 40), sheet.denominator(), Signed(s.elevation_m, 2), kSectionHeight_m,
+      Decimal(x), Decimal(y), EscapeXml(s.name), Decimal(y + 40), sheet.denominator(), Signed(s.elevation_m, 2), section_height_m,
       Decimal(y + 74), EscapeXml(file));
 }
 
-std::string DrawStorey(const AGraph& graph, StoreyId storey, const Sheet& sheet, double width) {
+std::string DrawStorey(const AGraph& graph, StoreyId storey, const Sheet& sheet, const FloorPlanOptions& options, double width) {
   const double foot = sheet.height();
-  std::string out = DrawFloorPlan(graph, storey, sheet) + DrawDimensions(graph, storey, sheet) + DrawRoomLabels(graph, storey, sheet);
-  out += DrawTitle(graph, storey, sheet, kMargin + 20, foot + 30);
+  std::string out =
+      DrawFloorPlan(graph, storey, sheet, options) + DrawDimensions(graph, storey, sheet) + DrawRoomLabels(graph, storey, sheet);
+  out += DrawTitle(graph, storey, sheet, options.section_height_m, kMargin + 20, foot + 30);
   out += DrawScaleBar(sheet, kMargin + 20, foot + 130);
   if (graph.true_north_rad) out += DrawNorth(*graph.true_north_rad, width - 140, foot + 90);
   return out;
@@ -134,7 +135,7 @@ std::string DrawScaleBar(const Sheet& sheet, double x, double y) {
   return out + "\n";
 }
 
-std::string FloorPlansToSvg(const AGraph& graph, const std::vector<StoreyId>& storeys) {
+std::string FloorPlansToSvg(const AGraph& graph, const std::vector<StoreyId>& storeys, const FloorPlanOptions& options) {
   const double denominator = CommonScale(graph, storeys);
   double width = kLeastWidth, height = 0;
   for (const StoreyId storey : storeys) {
@@ -151,7 +152,7 @@ std::string FloorPlansToSvg(const AGraph& graph, const std::vector<StoreyId>& st
   for (const StoreyId storey : storeys) {
     const Sheet sheet = SheetAt(graph, storey, denominator);
     fmt::format_to(std::back_inserter(out), "<g class=\"storey\" id=\"storey-{}\" transform=\"translate(0 {})\">\n{}</g>\n", storey.value,
-                   Decimal(y), DrawStorey(graph, storey, sheet, width));
+                   Decimal(y), DrawStorey(graph, storey, sheet, options, width));
     y += sheet.height() + kFooter;
   }
   return out + "</svg>\n";

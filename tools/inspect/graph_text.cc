@@ -3,7 +3,11 @@
 #include <fmt/format.h>
 
 #include <iterator>
+#include <map>
 #include <numbers>
+
+#include "schema/agraph_json.h"
+#include "schema/counted.h"
 
 namespace plumb::tools {
 namespace {
@@ -14,15 +18,46 @@ std::string RoomName(const AGraph& g, RoomId id) { return id.valid() ? g.rooms[i
 
 double Degrees(double rad) { return rad * 180 / std::numbers::pi; }
 
+// ", swing into Kitchen at the left": at the jamb to the left of who passes in the order of the rooms.
+std::string LeavesInWords(const AGraph& g, const Doorway& d) {
+  if (!d.has_leaf) return ", without a leaf";
+  std::string out;
+  for (const DoorLeaf& l : d.leaves) {
+    fmt::format_to(std::back_inserter(out), "{}{}", out.empty() ? ", " : " and ", NameOf(l.operation));
+    if (l.opens_to != DoorwaySide::kUnknown) out += " into " + RoomName(g, l.opens_to == DoorwaySide::kRoomA ? d.room_a : d.room_b);
+    const bool slides = l.operation == LeafOperation::kSliding;
+    if (l.jamb != Jamb::kUnknown)
+      fmt::format_to(std::back_inserter(out), "{} {}", slides ? " to the" : " at the", l.jamb == Jamb::kLeft ? "left" : "right");
+  }
+  return out;
+}
+
+// Doors by how their leaves open, two of one door as one.
+void WriteLeafCounts(const AGraph& g, Writer write) {
+  std::map<std::string, size_t> by_kind;
+  size_t doors = 0, known = 0;
+  for (const Doorway& d : g.doorways) {
+    doors += d.has_leaf;
+    if (d.leaves.empty()) continue;
+    ++known;
+    ++by_kind[fmt::format("{} {}", d.leaves.size() == 1 ? "single" : "double", NameOf(d.leaves[0].operation))];
+  }
+  if (known == 0) return;
+  std::string kinds;
+  for (const auto& [kind, n] : by_kind) fmt::format_to(std::back_inserter(kinds), "{}{} {}", kinds.empty() ? "" : ", ", n, kind);
+  fmt::format_to(write, "leaves    of {} of {} known: {}\n", known, Counted(doors, "door"), kinds);
+}
+
 void WriteHead(const AGraph& g, size_t triangles, Writer write) {
   fmt::format_to(write, "source    {} ({})\n", g.source_path, g.source_format);
   if (!g.tool_version.empty()) fmt::format_to(write, "made by   plumb {}\n", g.tool_version);
   if (!g.options.empty()) fmt::format_to(write, "options  ");
   for (const Option& o : g.options) fmt::format_to(write, " {}={}", o.name, o.value);
   if (!g.options.empty()) fmt::format_to(write, "\n");
-  fmt::format_to(write, "contents  {} storeys, {} walls, {} surfaces, {} rooms, {} doorways, {} windows, {} columns, {} triangles\n",
-                 g.storeys.size(), g.walls.size(), g.surfaces.size(), g.rooms.size(), g.doorways.size(), g.windows.size(), g.columns.size(),
-                 triangles);
+  fmt::format_to(write, "contents  {}, {}, {}, {}, {}, {}, {}, {}\n", Counted(g.storeys.size(), "storey"), Counted(g.walls.size(), "wall"),
+                 Counted(g.surfaces.size(), "surface"), Counted(g.rooms.size(), "room"), Counted(g.doorways.size(), "doorway"),
+                 Counted(g.windows.size(), "window"), Counted(g.columns.size(), "column"), Counted(triangles, "triangle"));
+  WriteLeafCounts(g, write);
   if (g.true_north_rad) fmt::format_to(write, "north     {:.1f} deg counter-clockwise from +x\n", Degrees(*g.true_north_rad));
 }
 
@@ -32,13 +67,13 @@ void WriteStorey(const AGraph& g, StoreyId storey, Writer write) {
   for (size_t i = 0; i < g.rooms.size(); ++i) {
     const Room& r = g.rooms[i];
     if (r.storey != storey) continue;
-    fmt::format_to(write, "  room {:>3}  {:<28} {:>8.2f} m2  {} surfaces\n", i, r.name, r.area_m2, r.surfaces.size());
+    fmt::format_to(write, "  room {:>3}  {:<28} {:>8.2f} m2  {}\n", i, r.name, r.area_m2, Counted(r.surfaces.size(), "surface"));
   }
   for (size_t i = 0; i < g.doorways.size(); ++i) {
     const Doorway& d = g.doorways[i];
     if (d.storey != storey) continue;
     fmt::format_to(write, "  door {:>3}  {} - {}, {:.2f} m wide{}\n", i, RoomName(g, d.room_a), RoomName(g, d.room_b), d.width_m,
-                   d.has_leaf ? "" : ", without a leaf");
+                   LeavesInWords(g, d));
   }
 }
 

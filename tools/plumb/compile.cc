@@ -14,6 +14,7 @@
 
 #include "compiler/validate.h"
 #include "schema/agraph_writer.h"
+#include "schema/counted.h"
 #include "schema/files.h"
 #include "tools/plumb/command.h"
 #include "tools/plumb/compile_limits.h"
@@ -32,8 +33,9 @@ struct CompileFlags {
 };
 
 std::string Summary(const AGraph& g, const std::string& output) {
-  return fmt::format("{}: {} storeys, {} walls, {} surfaces, {} rooms, {} doorways, {} windows, {} triangles", output, g.storeys.size(),
-                     g.walls.size(), g.surfaces.size(), g.rooms.size(), g.doorways.size(), g.windows.size(), g.mesh.triangles.size());
+  return fmt::format("{}: {}, {}, {}, {}, {}, {}, {}", output, Counted(g.storeys.size(), "storey"), Counted(g.walls.size(), "wall"),
+                     Counted(g.surfaces.size(), "surface"), Counted(g.rooms.size(), "room"), Counted(g.doorways.size(), "doorway"),
+                     Counted(g.windows.size(), "window"), Counted(g.mesh.triangles.size(), "triangle"));
 }
 
 // With --quiet the errors alone remain.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "runtime/sources/recording.h"
+#include "schema/counted.h"
 #include "schema/files.h"
 #include "tools/plumb/command.h"
 
@@ -77,10 +78,11 @@ void ExamineScans(const runtime::Recording& recording, Console& console, Examina
   fmt::format_to(write, "time       {}\n",
                  without_time == read ? "none" : fmt::format("{:.4f} to {:.4f} s after the stamp", least_s, most_s));
   fmt::format_to(write, "ring       {}\n", without_ring == read ? "none" : "yes");
-  if (unreadable > 0) out.findings.push_back(fmt::format("{} scans cannot be read, the first: {}", unreadable, first_error));
-  if (empty > 0) out.findings.push_back(fmt::format("{} scans have fewer than 100 points", empty));
+  if (unreadable > 0) out.findings.push_back(fmt::format("{} cannot be read, the first: {}", Counted(unreadable, "scan"), first_error));
+  if (empty > 0) out.findings.push_back(fmt::format("{} with fewer than 100 points", Counted(empty, "scan")));
   if (without_time > 0)
-    out.findings.push_back(fmt::format("{} scans have no time per point: motion during the sweep cannot be taken out", without_time));
+    out.findings.push_back(
+        fmt::format("{} without time per point: motion during the sweep cannot be taken out", Counted(without_time, "scan")));
   if (farthest_m > 1000)
     out.findings.push_back(fmt::format("a point is {:.0f} m away: are these millimetres? coordinates are in metres", farthest_m));
   if (most_s > 0.5F || least_s < -0.5F)

@@ -25,6 +25,7 @@ constexpr auto kFlags = std::to_array<std::pair<std::string_view, std::string_vi
     {"HeightOptions.sill_m", "--sill-height"},
     {"HeightOptions.window_top_m", "--window-top"},
     {"MassOptions.single_line_thickness_m", "--wall-thickness"},
+    {"FloorPlanOptions.section_height_m", "--section-height"},
     {"ReplayOptions.start_s", "--start"},
     {"ReplayOptions.max_duration_s", "--max-duration"},
     {"ReplayOptions.threads", "--threads"},
@@ -51,16 +52,16 @@ constexpr std::string_view kIs = " = ";
 
 bool IsOfName(char c) { return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_'; }
 
-// The flags of other fields of the same options: of words with a unit behind them, "sill_m", and of those that a value follows, "unit = cm".
+// The flags of other fields of the same options: of words with a unit behind them, "sill_m", and of those that a value follows, "unit =
+// cm".
 std::string OthersInFlags(std::string_view text, std::string_view options) {
   std::string out;
   while (!text.empty()) {
     const auto length = static_cast<size_t>(std::find_if_not(text.begin(), text.end(), IsOfName) - text.begin());
     const std::string_view word = text.substr(0, length);
     const bool has_value = text.substr(length).starts_with(kIs);
-    const auto known = std::find_if(kFlags.begin(), kFlags.end(), [&](const auto& f) {
-      return f.first.starts_with(options) && f.first.substr(options.size()) == word;
-    });
+    const auto known = std::find_if(kFlags.begin(), kFlags.end(),
+                                    [&](const auto& f) { return f.first.starts_with(options) && f.first.substr(options.size()) == word; });
     if (known != kFlags.end() && (has_value || word.find('_') != std::string_view::npos)) {
       out += known->second;
       text.remove_prefix(length);

@@ -17,6 +17,7 @@
 #include "tools/inspect/occupancy_map.h"
 #include "tools/inspect/storeys.h"
 #include "tools/plumb/command.h"
+#include "tools/plumb/flag_names.h"
 #include "tools/plumb/outputs.h"
 
 namespace plumb::tools {
@@ -25,6 +26,7 @@ namespace {
 struct InspectFlags {
   std::string path, svg, graphml, nav2, storey;
   bool json = false;
+  FloorPlanOptions floor_plan;
   OccupancyOptions occupancy;
 };
 
@@ -32,7 +34,8 @@ std::string NameOf(const AGraph& graph, StoreyId storey) { return graph.storeys[
 
 Expected<void> WriteSvg(const AGraph& graph, const InspectFlags& flags, StoreyId chosen, Console& console) {
   const std::vector<StoreyId> storeys = chosen.valid() ? std::vector<StoreyId>{chosen} : DrawnStoreys(graph);
-  if (auto written = WriteFileAtomically(flags.svg, std::string_view(FloorPlansToSvg(graph, storeys))); !written) return written;
+  if (auto written = WriteFileAtomically(flags.svg, std::string_view(FloorPlansToSvg(graph, storeys, flags.floor_plan))); !written)
+    return written;
   std::string names;
   for (const StoreyId storey : storeys) names += (names.empty() ? "" : ", ") + NameOf(graph, storey);
   console.Info(fmt::format("{}: floor plan of {}", flags.svg, names.empty() ? "nothing: no storey has walls or rooms" : names));
@@ -58,6 +61,7 @@ Expected<void> WriteNav2(const AGraph& graph, const InspectFlags& flags, StoreyI
 }
 
 Status RunInspect(const InspectFlags& flags, Session& session) {
+  if (const std::string wrong = flags.floor_plan.Check(); !wrong.empty()) return session.Fail({ErrorCode::kBadOption, InFlags(wrong)});
   auto file = AGraphFile::Open(flags.path);
   if (!file) return session.Fail(file.error());
   const size_t triangles = file->triangle_count();
@@ -105,6 +109,7 @@ void AddInspect(CLI::App& app, Session& session) {
   sub->add_flag("--json", flags->json, "print it as JSON");
   sub->add_option("--svg", flags->svg, "draw the floor plans of all storeys, or of --storey, to scale into this file")
       ->type_name("FILE.svg");
+  sub->add_option("--section-height", flags->floor_plan.section_height_m, "of the cut above the storey's zero, for --svg, m");
   sub->add_option("--graphml", flags->graphml, "write rooms, doorways and surfaces as a graph, for yEd or networkx")
       ->type_name("FILE.graphml");
   sub->add_option("--nav2", flags->nav2, "write map.yaml and map.pgm of --storey, or of the one with most rooms, into this folder")

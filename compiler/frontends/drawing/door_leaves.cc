@@ -15,7 +15,7 @@ DoorLeaves::DoorLeaves(const Drawing& drawing, const std::vector<uint32_t>& symb
     : drawing_(drawing), options_(options) {
   std::vector<Eigen::AlignedBox2d> tips;
   for (const uint32_t p : symbols) {
-    for (const DoorLeaf& leaf : OfSwings(p)) {
+    for (const DrawnLeaf& leaf : OfSwings(p)) {
       leaves_.push_back(leaf);
       tips.emplace_back(leaf.tip);
     }
@@ -23,8 +23,8 @@ DoorLeaves::DoorLeaves(const Drawing& drawing, const std::vector<uint32_t>& symb
   tips_ = BoxTree<2>(std::move(tips));
 }
 
-std::vector<DoorLeaf> DoorLeaves::OfSwings(uint32_t path) const {
-  std::vector<DoorLeaf> out;
+std::vector<DrawnLeaf> DoorLeaves::OfSwings(uint32_t path) const {
+  std::vector<DrawnLeaf> out;
   for (const Arc& arc : drawing_.paths[path].arcs) {
     if (!IsSwing(arc, options_)) continue;
     for (const double at : {arc.start_rad, arc.start_rad + arc.sweep_rad})
@@ -33,7 +33,7 @@ std::vector<DoorLeaf> DoorLeaves::OfSwings(uint32_t path) const {
   return out;
 }
 
-std::optional<Eigen::Vector2d> DoorLeaves::HingeOfMate(const DoorLeaf& leaf) const {
+std::optional<Eigen::Vector2d> DoorLeaves::HingeOfMate(const DrawnLeaf& leaf) const {
   const Eigen::Vector2d reach = Eigen::Vector2d::Constant(kLeavesMeet_m);
   uint32_t mate = kNone;
   tips_.ForEachIn({leaf.tip - reach, leaf.tip + reach}, [&](uint32_t i) {
@@ -46,11 +46,11 @@ std::optional<Eigen::Vector2d> DoorLeaves::HingeOfMate(const DoorLeaf& leaf) con
 std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> DoorLeaves::Closed(uint32_t path) const {
   const DrawnPath& drawn = drawing_.paths[path];
   std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> out;
-  const std::vector<DoorLeaf> leaves = OfSwings(path);
-  for (const DoorLeaf& leaf : leaves) {
+  const std::vector<DrawnLeaf> leaves = OfSwings(path);
+  for (const DrawnLeaf& leaf : leaves) {
     if (const auto other = HingeOfMate(leaf)) out.emplace_back(leaf.hinge, *other);
   }
-  for (const DoorLeaf& leaf : leaves) out.emplace_back(leaf.hinge, leaf.tip);
+  for (const DrawnLeaf& leaf : leaves) out.emplace_back(leaf.hinge, leaf.tip);
   if (drawn.arcs.empty() && !drawn.closed && drawn.points.size() == 2 && drawn.role == LineRole::kDoor)
     out.emplace_back(drawn.points[0], drawn.points[1]);
   return out;

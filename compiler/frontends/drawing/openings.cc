@@ -17,14 +17,14 @@ namespace plumb::compiler {
 namespace {
 
 constexpr double kOff_m = 1e-4;
-constexpr double kAgainst = 0.96;    // cosine between sides that face each other
-constexpr double kSkewEnds = 0.87;   // ... between ends of walls: the two lines of a wall often end askew
+constexpr double kAgainst = 0.96;      // cosine between sides that face each other
+constexpr double kSkewEnds = 0.87;     // ... between ends of walls: the two lines of a wall often end askew
 constexpr double kSquareEnd = 0.9995;  // ... between a wall's sides, and between them and the normal of its end: 1.8 degrees
 constexpr double kSlipEnd = 0.96;      // ends that are more askew are drawn so
-constexpr double kMinEnd_m = 0.03;   // narrower ends are no walls
-constexpr double kBeyond_m = 0.15;   // from the faces of a wall into the rooms beside it
-constexpr double kFrame_m = 0.2;  // a frame's width and a bit
-constexpr double kSillShare = 0.85;  // a window's line runs from jamb to jamb
+constexpr double kMinEnd_m = 0.03;     // narrower ends are no walls
+constexpr double kBeyond_m = 0.15;     // from the faces of a wall into the rooms beside it
+constexpr double kFrame_m = 0.2;       // a frame's width and a bit
+constexpr double kSillShare = 0.85;    // a window's line runs from jamb to jamb
 
 // A gap between two sides of walls, as a rectangle: `from` to `to` and half the depth to both sides.
 struct Gap {
@@ -36,8 +36,13 @@ struct Gap {
 class OpeningFinder {
  public:
   OpeningFinder(const Drawing& drawing, const std::vector<uint32_t>& paths, const Outline& outline, const OpeningOptions& options)
-      : drawing_(drawing), paths_(paths), outline_(outline), options_(options), curves_(outline, options),
-        symbols_(drawing, paths, options), leaves_(drawing, paths, options) {
+      : drawing_(drawing),
+        paths_(paths),
+        outline_(outline),
+        options_(options),
+        curves_(outline, options),
+        symbols_(drawing, paths, options),
+        leaves_(drawing, paths, options) {
     std::vector<Eigen::AlignedBox2d> boxes;
     for (const DrawnSpace& space : drawing.spaces) boxes.push_back(BoxOf(space.outline));
     rooms_ = BoxTree<2>(std::move(boxes));
@@ -231,7 +236,7 @@ class OpeningFinder {
   // Two leaves that meet when closed are one doorway, also where something narrow stands between them.
   void JoinLeafPairs() {
     std::vector<bool> joined(out_.size(), false);
-    for (const DoorLeaf& leaf : leaves_.all()) {
+    for (const DrawnLeaf& leaf : leaves_.all()) {
       const std::optional<Eigen::Vector2d> mate = leaves_.HingeOfMate(leaf);
       const uint32_t a = mate ? DoorFrom(leaf.hinge, leaf.tip) : kNone, b = mate ? DoorFrom(*mate, leaf.tip) : kNone;
       if (a == kNone || b == kNone || a == b || joined[a] || joined[b]) continue;
@@ -332,7 +337,7 @@ class OpeningFinder {
   std::vector<DrawnOpening> out_;
   OpeningPlaces places_;  // of out_
   const DoorLeaves leaves_;
-  BoxTree<2> rooms_;      // as the drawing outlines them
+  BoxTree<2> rooms_;  // as the drawing outlines them
 };
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "compiler/frontends/drawing/face_cover.h"
+#include "compiler/frontends/drawing/opening_leaves.h"
 #include "compiler/frontends/drawing/plane.h"
 #include "compiler/frontends/drawing/room_names.h"
 #include "compiler/frontends/drawing/wall_report.h"
@@ -20,9 +21,9 @@ namespace {
 constexpr double kOff_m = 1e-3;
 constexpr double kSliver_m = 0.02;  // leftovers thinner than this are rounding
 constexpr double kMinLeftover_m2 = 1e-3;
-constexpr double kInLine = 0.96;        // cosine between openings in one wall
-constexpr double kFrame_m = 0.2;        // a door frame's width and a bit
-constexpr double kSwingShare = 0.25;    // of a line's length, for it to be the swing of a leaf
+constexpr double kInLine = 0.96;         // cosine between openings in one wall
+constexpr double kFrame_m = 0.2;         // a door frame's width and a bit
+constexpr double kSwingShare = 0.25;     // of a line's length, for it to be the swing of a leaf
 constexpr double kSymbolDepth_m = 0.04;  // of a door leaf in its opening
 
 Solid Prism(const std::vector<Eigen::Vector2d>& ring, double bottom_m, double top_m) {
@@ -51,7 +52,8 @@ class StoreyBuilder {
     RunOptions run_options;
     run_options.max_thickness_m = options_.mass.max_thickness_m;
     runs_ = FindWallRuns(outline, openings_, run_options);
-    for (WallRun& run : runs_) AddWall(run);
+    const OpeningLeaves leaves(drawing_, symbols_, options_.openings);
+    for (WallRun& run : runs_) AddWall(run, leaves);
     AddSpaces();
     if (!AddLeftovers(outline)) return Fail();
     ReportWalls(drawing_, *mass, options_.mass, sink_);
@@ -79,8 +81,8 @@ class StoreyBuilder {
     for (uint32_t p = 0; p < drawing_.paths.size(); ++p) {
       const DrawnPath& path = drawing_.paths[p];
       const bool wall = path.role == LineRole::kWall || path.role == LineRole::kColumn;
-      const bool swing = std::any_of(path.arcs.begin(), path.arcs.end(),
-                                     [&](const Arc& a) { return IsSwing(a, options_.openings) && IsMostly(a, path); });
+      const bool swing =
+          std::any_of(path.arcs.begin(), path.arcs.end(), [&](const Arc& a) { return IsSwing(a, options_.openings) && IsMostly(a, path); });
       if (wall || (path.role == LineRole::kAny && !swing && !IsLeaf(path, swings, tree)))
         wall_paths_.push_back(p);
       else
@@ -176,7 +178,7 @@ class StoreyBuilder {
     return out;
   }
 
-  void AddWall(WallRun& run) {
+  void AddWall(WallRun& run, const OpeningLeaves& leaves) {
     PlanElement wall = NewElement(ElementKind::kWall, LocationOf(run.source));
     wall.uncut = Prism(run.Corners(), base_m_, top_m_);
     wall.thickness_m = run.thickness_m();
@@ -197,7 +199,7 @@ class StoreyBuilder {
     if (run.end_m > at + kOff_m) AppendSolid(Prism(run.Part(at, run.end_m), base_m_, top_m_), wall.body);
     plan_.elements.push_back(std::move(wall));
     const auto index = static_cast<uint32_t>(plan_.elements.size() - 1);
-    for (const uint32_t o : run.openings) AddOpening(run, o, index);
+    for (const uint32_t o : run.openings) AddOpening(run, o, index, leaves);
   }
 
   std::pair<double, double> Extent(const WallRun& run, uint32_t o) const {
@@ -211,7 +213,7 @@ class StoreyBuilder {
     return {base_m_, base_m_ + h.door_m};
   }
 
-  void AddOpening(const WallRun& run, uint32_t o, uint32_t wall) {
+  void AddOpening(const WallRun& run, uint32_t o, uint32_t wall, const OpeningLeaves& leaves) {
     const DrawnOpening& drawn = openings_[o];
     const auto [from, to] = Extent(run, o);
     if (to - from < kOff_m) return;
@@ -229,6 +231,7 @@ class StoreyBuilder {
         const double middle = 0.5 * (run.left_m + run.right_m), half = 0.5 * kSymbolDepth_m;
         filling.body = Prism(run.Layer(from, to, middle - half, middle + half), sill, head);
       }
+      filling.leaves = leaves.Of(drawn);
       opening.filling = static_cast<uint32_t>(plan_.elements.size());
       plan_.elements.push_back(std::move(filling));
     } else {

@@ -10,7 +10,11 @@ namespace plumb::compiler::attribute {
 // IfcRoot and what every IfcObject, IfcProduct and IfcElement has.
 inline constexpr size_t kGlobalId = 0, kName = 2, kPlacement = 5, kRepresentation = 6;
 inline constexpr size_t kSpatialLongName = 7, kStoreyElevation = 9;
-inline constexpr size_t kOverallHeight = 8, kOverallWidth = 9;  // IfcDoor, IfcWindow
+inline constexpr size_t kOverallHeight = 8, kOverallWidth = 9;                // IfcDoor, IfcWindow
+inline constexpr size_t kDoorOperation = 11, kDoorUserDefinedOperation = 12;  // IfcDoor, since IFC4
+inline constexpr size_t kTypePropertySets = 5, kTypeRepresentationMaps = 6;   // IfcTypeProduct
+inline constexpr size_t kDoorTypeOperation = 10, kDoorTypeUserDefinedOperation = 12, kDoorStyleOperation = 8;
+inline constexpr size_t kPanelWidth = 6, kPanelPosition = 7;  // IfcDoorPanelProperties; the width as a share of the door's
 inline constexpr size_t kSlabType = 8, kObjectType = 4;
 inline constexpr size_t kProjectUnits = 8;
 inline constexpr size_t kContextTrueNorth = 5;
@@ -51,6 +55,7 @@ inline constexpr size_t kOperatorScale2In2D = 4, kOperatorScale2 = 5, kOperatorS
 // Representations.
 inline constexpr size_t kShapeRepresentations = 2;  // IfcProductDefinitionShape
 inline constexpr size_t kRepresentationIdentifier = 1, kRepresentationType = 2, kRepresentationItems = 3;
+inline constexpr size_t kSetElements = 0;  // IfcGeometricSet
 inline constexpr size_t kMapOrigin = 0, kMappedRepresentation = 1, kMappingSource = 0, kMappingTarget = 1;
 
 // Solids and surfaces.

@@ -8,6 +8,7 @@
 #include <set>
 #include <utility>
 
+#include "compiler/frontends/ifc/ifc_doors.h"
 #include "compiler/frontends/ifc/ifc_georeference.h"
 #include "compiler/frontends/ifc/ifc_model.h"
 #include "compiler/frontends/ifc/ifc_opening_table.h"
@@ -53,7 +54,8 @@ class Frontend {
         shapes_(model, placements_, styles_, options),
         relations_(model),
         products_(model, placements_, styles_, shapes_, relations_, options),
-        openings_(model, placements_, relations_, products_, options) {}
+        openings_(model, placements_, relations_, products_, options),
+        doors_(model, placements_, relations_) {}
 
   PlanIr Run() {
     if (model_.is_too_complex()) return {};
@@ -106,6 +108,7 @@ class Frontend {
     element.name = TextOf(product.instance, attribute::kName);
     element.storey = storeys_.Of(relations_.StoreyOf(product.instance));
     element.external = relations_.IsExternal(product.instance).value_or(false);
+    if (product.kind == ElementKind::kDoor) element.leaves = doors_.Leaves(product.instance);
     return element;
   }
 
@@ -221,6 +224,7 @@ class Frontend {
     panes.body = std::move(glass);
     panes.axis.reset();
     panes.arcs.clear();
+    panes.leaves.clear();
     plan_.elements.push_back(std::move(panes));
   }
 
@@ -300,6 +304,7 @@ class Frontend {
   StoreyTable storeys_;
   ProductTable products_;
   OpeningTable openings_;
+  DoorReader doors_;
   PlanIr plan_;
   std::set<std::string> guids_;
   std::vector<uint32_t> element_of_;  // by product

@@ -32,6 +32,7 @@ class Relations {
   [[nodiscard]] uint32_t StructureOf(uint32_t element) const { return structure_[element]; }  // IfcRelContainedInSpatialStructure
   [[nodiscard]] uint32_t HostOf(uint32_t opening) const { return host_[opening]; }            // IfcRelVoidsElement
   [[nodiscard]] uint32_t OpeningOf(uint32_t filling) const { return opening_[filling]; }      // IfcRelFillsElement
+  [[nodiscard]] uint32_t TypeOf(uint32_t object) const { return type_[object]; }              // IfcRelDefinesByType
   [[nodiscard]] uint32_t MaterialOf(uint32_t object) const;              // IfcRelAssociatesMaterial, else that of its type
   [[nodiscard]] std::optional<bool> IsExternal(uint32_t element) const;  // Pset_WallCommon and its kind
 

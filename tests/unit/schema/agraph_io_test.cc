@@ -50,6 +50,27 @@ TEST(AGraphIo, KeepsArcsAliasesAndFactors) {
   EXPECT_EQ(read->open_boundaries[0].end, Eigen::Vector2d(3, 4));
 }
 
+TEST(AGraphIo, KeepsTheLeavesOfDoors) {
+  AGraph house = test::MakeHouse();
+  const std::vector<uint8_t> without = WriteAGraph(house);
+  EXPECT_TRUE(ReadAGraph(without)->doorways[0].leaves.empty());
+  house.doorways[0].leaves = {{LeafOperation::kSwing, Jamb::kLeft, DoorwaySide::kRoomB, 0.9}, {LeafOperation::kFixed, Jamb::kRight}};
+  house.doorways[2].leaves = {{LeafOperation::kRevolving}};
+  const Expected<AGraph> read = ReadAGraph(WriteAGraph(house));
+  ASSERT_TRUE(read) << read.error().message;
+  for (size_t i = 0; i < 3; ++i) EXPECT_EQ(read->doorways[i].leaves, house.doorways[i].leaves) << i;
+}
+
+TEST(AGraphIo, RefusesLeavesThatMoveInNoKnownWay) {
+  AGraph house = test::MakeHouse();
+  for (const DoorLeaf& wrong :
+       {DoorLeaf{static_cast<LeafOperation>(8)}, DoorLeaf{.jamb = static_cast<Jamb>(3)}, DoorLeaf{.opens_to = static_cast<DoorwaySide>(3)},
+        DoorLeaf{.width_m = -1}, DoorLeaf{.width_m = std::numeric_limits<double>::quiet_NaN()}}) {
+    house.doorways[1].leaves = {wrong};
+    EXPECT_EQ(ReadAGraph(WriteAGraph(house)).error().code, ErrorCode::kAGraphInconsistent);
+  }
+}
+
 TEST(AGraphIo, RefusesAliasesOfRoomsThatAreNotThere) {
   AGraph house = test::MakeHouse();
   house.aliases.emplace_back();

@@ -28,9 +28,25 @@ TEST(AGraphJson, HasTheDocumentedArraysAndKeys) {
   EXPECT_DOUBLE_EQ(door["width_m"], 0.9);
 }
 
+TEST(AGraphJson, TellsHowLeavesOpen) {
+  AGraph house = test::MakeHouse();
+  house.doorways[0].leaves = {{LeafOperation::kSwing, Jamb::kLeft, DoorwaySide::kRoomB, 0.9}, {}};
+  house.doorways[1].leaves = {{LeafOperation::kDoubleActing, Jamb::kRight, DoorwaySide::kRoomA}};
+  const nlohmann::json doorways = nlohmann::json::parse(AGraphToJson(house))["doorways"];
+  const nlohmann::json swing = {{"operation", "swing"}, {"jamb", "left"}, {"opens_to", 1}, {"width_m", 0.9}};
+  const nlohmann::json unknown = {{"operation", nullptr}, {"jamb", nullptr}, {"opens_to", nullptr}, {"width_m", nullptr}};
+  EXPECT_EQ(doorways[0]["leaves"], (nlohmann::json{swing, unknown}));
+  EXPECT_EQ(doorways[1]["leaves"][0]["operation"], "double-acting");
+  EXPECT_EQ(doorways[1]["leaves"][0]["jamb"], "right");
+  EXPECT_EQ(doorways[1]["leaves"][0]["opens_to"], 0);
+  EXPECT_TRUE(doorways[2]["leaves"].empty());
+}
+
 TEST(AGraphJson, SurvivesNamesThatAreNoUtf8) {
   AGraph house = test::MakeHouse();
-  house.rooms[0].name = "K\xfc" "che";
+  house.rooms[0].name =
+      "K\xfc"
+      "che";
   EXPECT_TRUE(nlohmann::json::accept(AGraphToJson(house)));
 }
 

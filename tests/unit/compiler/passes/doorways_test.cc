@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-
 #include <cmath>
 #include <numbers>
 
@@ -52,6 +51,61 @@ TEST(Doorways, LeavesKnowTheirDoorwayAndWall) {
     if (e.kind == ElementKind::kWall) {
       EXPECT_EQ(graph.walls[e.wall.index()].guid, e.guid);
     }
+  }
+}
+
+PlanLeaf Swing(const Eigen::Vector2d& to_jamb, const Eigen::Vector2d& opens_to, double width_m = 0) {
+  return {LeafOperation::kSwing, to_jamb, opens_to, width_m};
+}
+
+DoorLeaf Swing(Jamb jamb, DoorwaySide opens_to, double width_m = 0) { return {LeafOperation::kSwing, jamb, opens_to, width_m}; }
+
+// TwoRooms; "D" leads from West to East along +x, "E" from West to the outside along -y.
+PlanIr WithLeaves(const std::vector<PlanLeaf>& of_d, const std::vector<PlanLeaf>& of_e) {
+  PlanIr plan = test::TwoRooms();
+  for (PlanElement& e : plan.elements) {
+    if (e.guid == "D") e.leaves = of_d;
+    if (e.guid == "E") e.leaves = of_e;
+  }
+  return plan;
+}
+
+TEST(Doorways, LeavesAreToldInTheDoorwaysOwnTerms) {
+  const AGraph graph = Build(WithLeaves({Swing({0, -1}, {1, 0}, 0.3), Swing({0, 1}, {-1, 0}, 0.6)}, {Swing({1, 0}, {0, 1})})).graph;
+  const std::vector<DoorLeaf> of_d = {Swing(Jamb::kLeft, DoorwaySide::kRoomA, 0.6), Swing(Jamb::kRight, DoorwaySide::kRoomB, 0.3)};
+  EXPECT_EQ(FindDoorway(graph, "D")->leaves, of_d);
+  // Going out, to the south, east is on the left.
+  EXPECT_EQ(FindDoorway(graph, "E")->leaves, std::vector<DoorLeaf>{Swing(Jamb::kLeft, DoorwaySide::kRoomA)});
+}
+
+TEST(Doorways, WhatLeavesPointAskewToIsUnknown) {
+  const AGraph graph = Build(WithLeaves({Swing({1, 0}, {0, 1})}, {})).graph;
+  EXPECT_EQ(FindDoorway(graph, "D")->leaves, std::vector<DoorLeaf>{Swing(Jamb::kUnknown, DoorwaySide::kUnknown)});
+  EXPECT_TRUE(FindDoorway(graph, "E")->leaves.empty());
+}
+
+// The room that the door's one leaf opens into, and the jamb as seen on the way there: the same whichever room is the first.
+std::pair<std::string, bool> InThere(const AGraph& graph, const char* guid) {
+  const Doorway* d = FindDoorway(graph, guid);
+  if (d == nullptr || d->leaves.size() != 1) return {"none", false};
+  const bool to_b = d->leaves[0].opens_to == DoorwaySide::kRoomB;
+  return {RoomName(graph, to_b ? d->room_b : d->room_a), (d->leaves[0].jamb == Jamb::kLeft) == to_b};
+}
+
+TEST(Doorways, NeitherMotionNorOrderChangesTheLeaves) {
+  const PlanIr plan = WithLeaves({Swing({0, -1}, {1, 0})}, {Swing({1, 0}, {0, 1})});
+  const std::pair<std::string, bool> d = {"East", false}, e = {"West", false};
+  EXPECT_EQ(InThere(Build(plan).graph, "D"), d);
+  EXPECT_EQ(InThere(Build(plan).graph, "E"), e);
+  for (const double yaw_rad : {0.3, 1.9, -2.6}) {
+    const AGraph moved = Build(test::Moved(plan, yaw_rad, {40, -7, 3})).graph;
+    EXPECT_EQ(InThere(moved, "D"), d) << yaw_rad;
+    EXPECT_EQ(InThere(moved, "E"), e) << yaw_rad;
+  }
+  for (uint64_t seed = 1; seed <= 5; ++seed) {
+    const AGraph other = Build(test::Shuffled(plan, seed)).graph;
+    EXPECT_EQ(InThere(other, "D"), d) << seed;
+    EXPECT_EQ(InThere(other, "E"), e) << seed;
   }
 }
 

@@ -121,6 +121,14 @@ TEST(AppendStorey, LeavesThatMeetAtAPostAreOneDoorway) {
   ASSERT_EQ(graph.doorways.size(), 1u);
   EXPECT_NEAR(graph.doorways[0].width_m, 1.86, 1e-3);
   EXPECT_NEAR(graph.doorways[0].position.x(), 2.93, 1e-3);
+  const std::vector<DoorLeaf>& leaves = graph.doorways[0].leaves;
+  ASSERT_EQ(leaves.size(), 2u);
+  for (size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(leaves[i].operation, LeafOperation::kSwing);
+    EXPECT_EQ(leaves[i].jamb, i == 0 ? Jamb::kLeft : Jamb::kRight);
+    EXPECT_EQ(leaves[i].opens_to, DoorwaySide::kRoomA);  // the other side is outside
+    EXPECT_NEAR(leaves[i].width_m, 0.9, 1e-9);
+  }
 }
 
 // A wall that is drawn as one line ends where its line does: a gap of 0.9 m is a doorway of 0.9 m.

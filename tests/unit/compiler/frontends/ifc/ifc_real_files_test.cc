@@ -157,5 +157,81 @@ TEST(SharedIfcFiles, CountsAgreeWithAnIndependentReader) {
   }
 }
 
+class SharedDoors : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    if (!fs::exists(folder())) GTEST_SKIP() << "there is no folder of shared IFC files beside the repository";
+  }
+  static fs::path folder() { return fs::path(PLUMB_SOURCE_DIR) / "../shared/data/plans/ifc"; }
+};
+
+// Without the panes in them. Some programs give several doors one GlobalId.
+std::vector<const PlanElement*> DoorsOf(const PlanIr& plan) {
+  std::vector<const PlanElement*> out;
+  for (const PlanElement& e : plan.elements) {
+    if (e.type.starts_with("IfcDoor") && (out.empty() || out.back()->location.step_id != e.location.step_id)) out.push_back(&e);
+  }
+  return out;
+}
+
+std::string WithoutOperations(std::string text) {
+  for (const std::string operation : {".SINGLE_SWING_LEFT.", ".SINGLE_SWING_RIGHT.", ".DOUBLE_DOOR_SINGLE_SWING."}) {
+    for (size_t at = text.find(operation); at != std::string::npos; at = text.find(operation, at))
+      text.replace(at, operation.size(), ".NOTDEFINED.");
+  }
+  return text;
+}
+
+// What the files state, and what their plan symbols draw where they state nothing. The figures are counts of IfcDoor, IfcDoorStyle and
+// IfcDoorType in the files' texts.
+TEST_F(SharedDoors, MostDoorsSayHowTheyOpen) {
+  struct Expectation {
+    const char* file;
+    size_t doors, known;
+  };
+  for (const Expectation& e :
+       {Expectation{"AC11-Institute-Var-2-IFC.ifc", 77, 77}, Expectation{"AC20-FZK-Haus.ifc", 5, 4}, Expectation{"Jesse.1.ifc", 61, 61},
+        Expectation{"MAD_SCIENTIST_212.ifc", 10, 10}, Expectation{"jgs_fhnw_model.ifc", 21, 18},
+        Expectation{"Allplan-Smiley-West.ifc", 85, 85}, Expectation{"brunopostle_creative-freedom.ifc", 6, 6},
+        Expectation{"revit2012_janesville_restaurant.ifc", 40, 32}}) {
+    SCOPED_TRACE(e.file);
+    DiagnosticSink diagnostics;
+    const auto source = LoadSource((folder() / e.file).string(), diagnostics);
+    ASSERT_TRUE(source);
+    const std::optional<PlanIr> plan = ReadIfc(*source, diagnostics);
+    ASSERT_TRUE(plan);
+    const auto doors = DoorsOf(*plan);
+    EXPECT_EQ(doors.size(), e.doors);
+    EXPECT_EQ(std::count_if(doors.begin(), doors.end(), [](const PlanElement* d) { return !d->leaves.empty(); }),
+              static_cast<std::ptrdiff_t>(e.known));
+  }
+}
+
+// Two ways to the same knowledge: OperationType with the door's placement, and the swings in its plan symbol.
+TEST_F(SharedDoors, DoorsSwingAsTheirSymbolsAreDrawn) {
+  for (const auto& [file, doors] : {std::pair{"Duplex_A_20110907.ifc", 14}, std::pair{"Office_A_20110811.ifc", 102}}) {
+    SCOPED_TRACE(file);
+    DiagnosticSink diagnostics;
+    const auto source = LoadSource((folder() / file).string(), diagnostics);
+    ASSERT_TRUE(source);
+    const std::string text = WithoutOperations(source->bytes);
+    ASSERT_EQ(text.find("SINGLE_SWING"), std::string::npos);
+    const auto stated = ReadIfc(*source, diagnostics);
+    const auto drawn = ReadIfc(Source{.path = file, .bytes = text, .sha256 = "", .format = source->format}, diagnostics);
+    ASSERT_TRUE(stated && drawn);
+    const auto a = DoorsOf(*stated), b = DoorsOf(*drawn);
+    ASSERT_EQ(a.size(), static_cast<size_t>(doors));
+    ASSERT_EQ(b.size(), a.size());
+    for (size_t i = 0; i < a.size(); ++i) {
+      ASSERT_FALSE(a[i]->leaves.empty()) << a[i]->name;
+      ASSERT_EQ(a[i]->leaves.size(), b[i]->leaves.size()) << a[i]->name;
+      for (size_t k = 0; k < a[i]->leaves.size(); ++k) {
+        EXPECT_LT((a[i]->leaves[k].to_jamb - b[i]->leaves[k].to_jamb).norm(), 1e-6) << a[i]->name;
+        EXPECT_LT((a[i]->leaves[k].opens_to - b[i]->leaves[k].opens_to).norm(), 1e-6) << a[i]->name;
+      }
+    }
+  }
+}
+
 }  // namespace
 }  // namespace plumb::compiler

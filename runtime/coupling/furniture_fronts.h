@@ -1,0 +1,21 @@
+// Tells fronts of furniture by the thickness that a wall would have with them. Internal to coupling/.
+#pragma once
+
+#include <vector>
+
+#include "runtime/coupling/face_candidates.h"
+#include "runtime/coupling/wall_patch.h"
+#include "schema/agraph.h"
+
+namespace plumb::runtime {
+
+// Per patch its candidates, the chosen one first.
+using AssignedFaces = std::vector<std::vector<FaceCandidate>>;
+
+// Where a wall's two faces were both seen and make it far thicker than planned, one of them is the front of furniture against it: it
+// loses all candidates. A planar laser sees of a cupboard no more and no less than of a wall: there it is what stands before its plan.
+void DropPlanarFronts(const std::vector<Patch>& patches, AssignedFaces& assigned);
+// A lidar with many rings sees over furniture: the wall is what reaches higher, of two that reach alike the larger.
+void DropLowFronts(const AGraph& plan, const std::vector<Patch>& patches, AssignedFaces& assigned);
+
+}  // namespace plumb::runtime

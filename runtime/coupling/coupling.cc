@@ -309,7 +309,6 @@ std::vector<Match> MatchSurfaces(const SGraph& map, const AGraph& plan, const Ei
     for (const FarWall& w : far) supposed[w.wall.index()] = w.deviation;
     assigned = Assigned(faces, patches, sight, supposed, max_offset_m, options);
   }
-  if (!map.planar) DropLowFronts(plan, patches, assigned);
 
   std::vector<Match> matches = MatchLevels(map, plan, T_plan_map, options);
   std::set<int> sides;
@@ -322,6 +321,7 @@ std::vector<Match> MatchSurfaces(const SGraph& map, const AGraph& plan, const Ei
         map.planar ? std::vector{assigned[i].front()} : FacesAlong(plan, patches[i], assigned[i], sides);
     AddMatches(map, plan, patches[i], along, openings, T_plan_map, matches);
   }
+  if (!map.planar) DropLowFronts(plan, frames, patches, matches);
   std::sort(matches.begin(), matches.end(), [](const Match& a, const Match& b) {
     return std::pair(a.map_surface, a.plan_surface.value) < std::pair(b.map_surface, b.plan_surface.value);
   });

@@ -15,29 +15,47 @@ constexpr double kMuchLarger = 2;   // in area
 
 // What was seen of one side of a wall.
 struct Side {
-  std::vector<size_t> patches;  // the first is the largest
+  const Patch* largest = nullptr;
+  const Surface* face = nullptr;  // that it was matched to
   double area = 0, z_max = -1e300;
 };
 
-std::map<int, Side> Sides(const std::vector<Patch>& patches, const AssignedFaces& assigned) {
+int SideOf(const std::vector<WallFrame>& frames, const Surface& face) {
+  return static_cast<int>(2 * face.wall.value) + (frames[face.wall.index()].normal.dot(face.normal) > 0 ? 1 : 0);
+}
+
+std::map<int, Side> Sides(const AGraph& plan, const std::vector<WallFrame>& frames, const std::vector<Patch>& patches,
+                          const std::vector<Match>& matches) {
   std::map<int, Side> sides;
-  for (size_t i = 0; i < patches.size(); ++i) {
-    if (assigned[i].empty()) continue;
-    Side& side = sides[assigned[i].front().side];
-    side.patches.push_back(i);
-    if (patches[i].area > patches[side.patches.front()].area) std::swap(side.patches.front(), side.patches.back());
-    side.area += patches[i].area;
-    side.z_max = std::max(side.z_max, patches[i].z_max);
+  for (const Match& m : matches) {
+    if (!m.plan_surface.valid()) continue;
+    const auto patch = std::lower_bound(patches.begin(), patches.end(), m.map_surface,
+                                        [](const Patch& p, uint32_t map_surface) { return p.map_surface < map_surface; });
+    const Surface& face = plan.surfaces[m.plan_surface.index()];
+    Side& side = sides[SideOf(frames, face)];
+    if (!side.largest || patch->area > side.largest->area) {
+      side.largest = &*patch;
+      side.face = &face;
+    }
+    side.area += patch->area;
+    side.z_max = std::max(side.z_max, patch->z_max);
   }
   return sides;
 }
 
-// By how much the wall between two patches is thicker than between the planned faces. Each patch is led on to the other: the shorter one's
-// direction is the worse, so the smaller counts.
-double Thicker_m(const Patch& a, const Surface& a_face, const Patch& b, const Surface& b_face) {
-  const double planned = a_face.normal.head<2>().dot(a_face.midpoint() - b_face.midpoint());
-  const Eigen::Vector2d arm = a.midpoint() - b.midpoint();
-  return std::min(a.normal.head<2>().normalized().dot(arm), -b.normal.head<2>().normalized().dot(arm)) - planned;
+// By how much the wall between two patches is thicker than between the planned faces, in the middle of what both run along.
+double Thicker_m(const Side& a, const Side& b) {
+  const Eigen::Vector2d along = (a.face->end - a.face->start).normalized();
+  const auto range = [&](const Patch& p) { return std::minmax({along.dot(p.start), along.dot(p.end)}); };
+  const auto [a_from, a_to] = range(*a.largest);
+  const auto [b_from, b_to] = range(*b.largest);
+  const double middle = 0.5 * (std::max(a_from, b_from) + std::min(a_to, b_to));
+  const auto at = [&](const Patch& p) -> Eigen::Vector2d {
+    const double from = along.dot(p.start), to = along.dot(p.end);
+    return p.start + (middle - from) / (to - from) * (p.end - p.start);
+  };
+  return a.largest->normal.head<2>().normalized().dot(at(*a.largest) - at(*b.largest)) -
+         a.face->normal.head<2>().dot(a.face->midpoint() - b.face->midpoint());
 }
 
 // The worse seen of two sides; null where they are seen alike.
@@ -68,17 +86,17 @@ void DropPlanarFronts(const std::vector<Patch>& patches, AssignedFaces& assigned
   }
 }
 
-void DropLowFronts(const AGraph& plan, const std::vector<Patch>& patches, AssignedFaces& assigned) {
-  const std::map<int, Side> sides = Sides(patches, assigned);
+void DropLowFronts(const AGraph& plan, const std::vector<WallFrame>& frames, const std::vector<Patch>& patches,
+                   std::vector<Match>& matches) {
+  const std::map<int, Side> sides = Sides(plan, frames, patches, matches);
   for (const auto& [key, side] : sides) {
     const auto other = sides.find(key ^ 1);
-    if (key % 2 != 0 || other == sides.end()) continue;
-    const size_t a = side.patches.front(), b = other->second.patches.front();
-    const auto face = [&](size_t i) -> const Surface& { return plan.surfaces[assigned[i].front().surface.index()]; };
-    if (Thicker_m(patches[a], face(a), patches[b], face(b)) <= kMaxThicker_m) continue;
-    if (const Side* lesser = LesserOf(side, other->second)) {
-      for (const size_t i : lesser->patches) assigned[i].clear();
-    }
+    if (key % 2 != 0 || other == sides.end() || Thicker_m(side, other->second) <= kMaxThicker_m) continue;
+    const Side* lesser = LesserOf(side, other->second);
+    if (!lesser) continue;
+    const int front = lesser == &side ? key : other->first;
+    std::erase_if(matches,
+                  [&](const Match& m) { return m.plan_surface.valid() && SideOf(frames, plan.surfaces[m.plan_surface.index()]) == front; });
   }
 }
 

@@ -12,21 +12,22 @@ constexpr double kOffsetUnknowns = 3, kYawUnknowns = 1;  // of the frame that th
 
 // One number of one wall: its square, the variance of the data alone, and what a ratio of 1 adds to that.
 struct Term {
-  double weight, square, data_variance, tolerance_variance;
+  double square, data_variance, tolerance_variance;
 };
 
-double MostLikelyRatio(const std::vector<Term>& terms, double num_unknowns) {
-  double num = 0;
-  for (const Term& t : terms) num += t.weight;
+double Density(double square, double variance) { return std::exp(-0.5 * square / variance) / std::sqrt(variance); }
+
+// `num` walls stand as planned; the frame was fitted to them, so they are off by less than they stand off.
+double MostLikelyRatio(const std::vector<Term>& terms, double num, double num_unknowns, double wide_ratio, double tau1) {
   if (num <= num_unknowns) return 1;
-  const double free_share = (num - num_unknowns) / num;  // the frame was fitted to these walls: they are off by less than they stand off
+  const double fitted = num / (num - num_unknowns);
   double best = 1, best_cost = 1e300;
   for (double ratio = 1; ratio > kLeastRatio - 0.5 * kStep; ratio -= kStep) {
     const double square = ratio * ratio;
-    double cost = kPriorWalls * (std::log(square) + 1 / square);
+    double cost = 0.5 * kPriorWalls * (std::log(square) + 1 / square);
     for (const Term& t : terms) {
-      const double variance = t.data_variance + square * t.tolerance_variance;
-      cost += t.weight * (free_share * std::log(variance) + t.square / variance);
+      cost -= std::log((1 - wide_ratio) * Density(fitted * t.square, t.data_variance + square * t.tolerance_variance) +
+                       wide_ratio * Density(t.square, t.data_variance + tau1 * tau1));
     }
     if (cost >= best_cost) continue;
     best = ratio;
@@ -40,17 +41,21 @@ double MostLikelyRatio(const std::vector<Term>& terms, double num_unknowns) {
 BuiltTolerance FitBuiltTolerance(const std::vector<WallMeasurement>& measured, const std::vector<WallMeasurement>& at_thickness,
                                  const std::vector<Responsibilities>& responsibilities, double bias_m, const CouplingOptions& options) {
   std::vector<Term> offsets, yaws;
+  double num_offsets = 0, num_yaws = 0;
   for (size_t w = 0; w < measured.size(); ++w) {
-    const Eigen::Vector2d e = measured[w].At(bias_m).cwiseAbs2(), all = measured[w].covariance.diagonal();
+    const Eigen::Vector2d e = measured[w].At(bias_m).cwiseAbs2(), all = measured[w].covariance.diagonal(),
+                          as_thick = at_thickness[w].covariance.diagonal().cwiseMin(all);
     // What poses add is not taken out: it counts as tolerance, which errs on the wide side.
-    const Eigen::Vector2d data =
-        at_thickness[w].covariance.diagonal().cwiseMin(all) - Eigen::Vector2d(kPoseSigma_m, kPoseSigma_rad).cwiseAbs2();
-    const Eigen::Vector2d tolerance = all - at_thickness[w].covariance.diagonal().cwiseMin(all) +
-                                      Eigen::Vector2d(options.offset_tau0_m, options.yaw_tau0_rad).cwiseAbs2();
-    offsets.push_back({1 - responsibilities[w].offset, e.x(), data.x(), tolerance.x()});
-    yaws.push_back({1 - responsibilities[w].yaw, e.y(), data.y(), tolerance.y()});
+    const Eigen::Vector2d data = as_thick - Eigen::Vector2d(kPoseSigma_m, kPoseSigma_rad).cwiseAbs2();
+    const Eigen::Vector2d tolerance = all - as_thick + Eigen::Vector2d(options.offset_tau0_m, options.yaw_tau0_rad).cwiseAbs2();
+    offsets.push_back({e.x(), data.x(), tolerance.x()});
+    yaws.push_back({e.y(), data.y(), tolerance.y()});
+    num_offsets += 1 - responsibilities[w].offset;
+    num_yaws += 1 - responsibilities[w].yaw;
   }
-  return {MostLikelyRatio(offsets, kOffsetUnknowns), MostLikelyRatio(yaws, kYawUnknowns)};
+  const double wide_ratio = options.deviated_ratio * 2 / 3;  // two of the three deviating cases
+  return {MostLikelyRatio(offsets, num_offsets, kOffsetUnknowns, wide_ratio, options.offset_tau1_m),
+          MostLikelyRatio(yaws, num_yaws, kYawUnknowns, wide_ratio, options.yaw_tau1_rad)};
 }
 
 }  // namespace plumb::runtime

@@ -14,9 +14,9 @@ struct BuiltTolerance {
   double yaw_ratio = 1;     // of yaw_tau0_rad
 };
 
-// The ratios that make the measured deviations of walls as planned most likely, as `responsibilities` has them, with a prior of two walls
-// that are off by the whole tolerance: with few walls it stays what the options say. `at_thickness` are the same measurements as if no wall
-// could be thicker than planned; all three are in the same order. O(walls).
+// The ratios that make the measured deviations most likely under the mixture, with a prior of two walls that are off by the whole
+// tolerance: with few walls it stays what the options say. `at_thickness` are the same measurements as if no wall could be thicker than
+// planned, `responsibilities` how many walls the frame rests on; all three in the same order. O(walls).
 [[nodiscard]] BuiltTolerance FitBuiltTolerance(const std::vector<WallMeasurement>& measured,
                                                const std::vector<WallMeasurement>& at_thickness,
                                                const std::vector<Responsibilities>& responsibilities, double bias_m,

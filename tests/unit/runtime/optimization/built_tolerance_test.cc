@@ -51,6 +51,19 @@ TEST(FitBuiltTolerance, FindsHowFarWallsAreOffOnAverage) {
   }
 }
 
+TEST(FitBuiltTolerance, AWallThatDeviatesByLittleIsNoToleranceOfTheOthers) {
+  const CouplingOptions options;
+  std::vector<WallMeasurement> measured;
+  for (int w = 0; w < 20; ++w) {
+    WallMeasurement m;
+    m.bias_gain = Eigen::Vector2d::Zero();
+    m.deviation = {w % 5 == 0 ? 0.03 : 0.0005, 0};
+    m.covariance = Eigen::Vector2d(1e-6 + kPoseSigma_m * kPoseSigma_m, 25e-8 + kPoseSigma_rad * kPoseSigma_rad).asDiagonal();
+    measured.push_back(m);
+  }
+  EXPECT_LT(FitBuiltTolerance(measured, measured, std::vector<Responsibilities>(20), 0, options).offset_ratio, 0.6);
+}
+
 TEST(FitBuiltTolerance, NeverMoreThanTheOptionsAllow) {
   EXPECT_EQ(Fit(60, 2).offset_ratio, 1);
   EXPECT_EQ(Fit(60, 2).yaw_ratio, 1);

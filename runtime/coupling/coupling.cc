@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "runtime/coupling/face_candidates.h"
+#include "runtime/coupling/furniture_fronts.h"
 #include "runtime/coupling/level_matching.h"
 #include "runtime/coupling/sight_lines.h"
 #include "runtime/coupling/wall_frame.h"
@@ -25,7 +26,6 @@ constexpr double kHigher_m = 0.10;         // ... or is seen this much higher up
 constexpr double kFrontPenalty_nats = 8;   // for taking a surface with a wall visible behind it for the wall
 constexpr double kInOpeningRatio = 0.6;    // of an observation's extent either way: it is of what fills the opening
 constexpr double kHalfExtentSigmas = 1.7;  // half the extent of evenly spread points
-constexpr double kMaxThicker_m = 0.10;     // no wall is built thicker than planned by more: one of its faces is the front of furniture
 // Of walls that one patch runs along.
 constexpr double kSameNormal_cos = 0.999, kMinShared_m2 = 0.5, kMaxFlush_m = 0.2, kMinSharedRatio = 0.5;
 constexpr double kSameDirection_rad = 0.052, kDirectionSigmas = 2;  // patches of one line are parallel to this
@@ -192,29 +192,7 @@ class Assignment {
   const CouplingOptions& options_;
 };
 
-// Drops what stands before a wall whose other face was seen as well, where the two together would make the wall far too thick. A planar
-// laser sees of a cupboard no more and no less than of a wall; a lidar with many rings sees over it, and lines decide.
-void DropFurnitureFronts(const std::vector<Patch>& patches, std::vector<std::vector<FaceCandidate>>& assigned) {
-  std::map<int, std::pair<double, double>> sides;  // sum of offset * area, area
-  for (size_t i = 0; i < patches.size(); ++i) {
-    if (assigned[i].empty()) continue;
-    auto& [moment, area] = sides[assigned[i].front().side];
-    moment += assigned[i].front().offset_m * patches[i].area;
-    area += patches[i].area;
-  }
-  const auto in_front_m = [&](int side) {
-    const auto at = sides.find(side);
-    return at == sides.end() || at->second.second <= 0 ? 0.0 : at->second.first / at->second.second;
-  };
-  for (auto& list : assigned) {
-    if (list.empty() || !sides.contains(list.front().side ^ 1)) continue;
-    const int side = list.front().side;
-    if (in_front_m(side) + in_front_m(side ^ 1) > kMaxThicker_m && in_front_m(side) > 0.5 * kMaxThicker_m) list.clear();
-  }
-}
-
-// Per patch its candidates, the chosen one first.
-std::vector<std::vector<FaceCandidate>> Assigned(const std::vector<PlannedFace>& faces, const std::vector<Patch>& patches,
+AssignedFaces Assigned(const std::vector<PlannedFace>& faces, const std::vector<Patch>& patches,
                                                  const SightLines& sight, const std::vector<WallDeviation>& known, double max_offset_m,
                                                  const CouplingOptions& options) {
   std::vector<std::vector<FaceCandidate>> candidates;
@@ -223,7 +201,7 @@ std::vector<std::vector<FaceCandidate>> Assigned(const std::vector<PlannedFace>&
 }
 
 std::vector<FarWall> FarWalls(const AGraph& plan, const std::vector<WallFrame>& frames, const std::vector<Patch>& patches,
-                              const std::vector<std::vector<FaceCandidate>>& assigned,
+                              const AssignedFaces& assigned,
                               const std::vector<std::vector<WallOpening>>& openings, const SightLines& sight,
                               const CouplingOptions& options) {
   std::vector<Patch> unmatched;
@@ -322,9 +300,9 @@ std::vector<Match> MatchSurfaces(const SGraph& map, const AGraph& plan, const Ei
   const SightLines sight(map, T_plan_map);
   const std::vector<PlannedFace> faces = PlannedFaces(plan, frames, openings);
   const double max_offset_m = map.planar ? options.planar_max_offset_m : options.max_offset_m;
-  std::vector<std::vector<FaceCandidate>> assigned = Assigned(faces, patches, sight, known, max_offset_m, options);
+  AssignedFaces assigned = Assigned(faces, patches, sight, known, max_offset_m, options);
   if (map.planar) {
-    DropFurnitureFronts(patches, assigned);
+    DropPlanarFronts(patches, assigned);
   } else if (const std::vector<FarWall> far = FarWalls(plan, frames, patches, assigned, openings, sight, options); !far.empty()) {
     std::vector<WallDeviation> supposed = known;
     supposed.resize(plan.walls.size());
@@ -343,6 +321,7 @@ std::vector<Match> MatchSurfaces(const SGraph& map, const AGraph& plan, const Ei
         map.planar ? std::vector{assigned[i].front()} : FacesAlong(plan, patches[i], assigned[i], sides);
     AddMatches(map, plan, patches[i], along, openings, T_plan_map, matches);
   }
+  if (!map.planar) DropLowFronts(plan, frames, patches, matches);
   std::sort(matches.begin(), matches.end(), [](const Match& a, const Match& b) {
     return std::pair(a.map_surface, a.plan_surface.value) < std::pair(b.map_surface, b.plan_surface.value);
   });

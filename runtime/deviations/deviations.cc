@@ -64,7 +64,8 @@ std::vector<SurfaceStatus> WallStatuses(const JointResult& estimate, const Devia
     const bool testable = MinimalDetectable_m(variance_m2) <= options.max_mdb_m;
     // A turn read off a short piece of a wall that may stand anywhere is no finding.
     const bool placed = testable || measured_m > two_sigma_m;
-    const bool a_box = std::abs(w.deviation.yaw_rad) >= options.turned_rad && w.observed_m2 < options.min_turned_m2;
+    const bool a_box = std::abs(w.deviation.yaw_rad) >= options.turned_rad && w.observed_m2 < options.min_turned_m2 &&
+                       w.span_m < options.min_turned_m;
     const bool deviated = rejected[k] && large && w.p_deviated >= options.min_p_deviated && placed && !a_box;
     // Nor is a wall as planned whose evidence alone says that it is not.
     const bool tested = testable && measured_m + two_sigma_m <= options.max_undecided_m && !(rejected[k] && large);
@@ -144,7 +145,8 @@ std::string DeviationOptions::Check() const {
     return fmt::format("DeviationOptions.min_p_deviated = {}; must be in [0, 1]", min_p_deviated);
   const std::pair<const char*, double> magnitudes[] = {{"tolerance_offset_m", tolerance_offset_m}, {"tolerance_yaw_rad", tolerance_yaw_rad},
       {"min_offset_m", min_offset_m}, {"min_yaw_rad", min_yaw_rad}, {"min_observed_m2", min_observed_m2}, {"max_mdb_m", max_mdb_m},
-      {"max_undecided_m", max_undecided_m}, {"turned_rad", turned_rad}, {"min_turned_m2", min_turned_m2}};
+      {"max_undecided_m", max_undecided_m}, {"turned_rad", turned_rad}, {"min_turned_m2", min_turned_m2},
+      {"min_turned_m", min_turned_m}};
   for (const auto& [name, value] : magnitudes) {
     if (!(value >= 0)) return fmt::format("DeviationOptions.{} = {}; must be >= 0", name, value);
   }

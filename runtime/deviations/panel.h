@@ -25,6 +25,7 @@ struct Panel {
 struct Meeting {
   double from_m = 0, to_m = 0;  // of the sensor and of what was seen
   double u = 0, z = 0;          // where the line, drawn on if need be, goes through the plane
+  double u_per_m = 0;           // how far it moves along the panel for each metre that it comes nearer
   double sight_m = 0;           // from the sensor to there
   double incidence = 0;         // sine of the angle between line and plane
 };

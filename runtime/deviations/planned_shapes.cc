@@ -9,13 +9,13 @@
 namespace plumb::runtime {
 namespace {
 
-constexpr double kProbe_m = 0.15;          // triangles are looked for this far before and behind what was seen
-constexpr double kOnTriangle_m = 0.015;    // what was seen lies on a triangle within this
-constexpr double kMuchNearer = 0.5;        // than the face: a wall that is off its plan is off both alike
-constexpr double kMinHit = 0.7;            // share of a part's cells that have a triangle near
-constexpr double kMinExplained = 0.7;      // share of the area
+constexpr double kProbe_m = 0.15;        // triangles are looked for this far before and behind what was seen
+constexpr double kOnTriangle_m = 0.015;  // what was seen lies on a triangle within this
+constexpr double kMuchNearer = 0.5;      // than the face: a wall that is off its plan is off both alike
+constexpr double kMinHit = 0.7;          // share of a part's cells that have a triangle near
+constexpr double kMinExplained = 0.7;    // share of the area
 constexpr size_t kParts = 3, kMinCells = 4;
-constexpr size_t kMaxCells = 300;          // of one surface: enough to tell
+constexpr size_t kMaxCells = 300;  // of one surface: enough to tell
 
 struct Part {
   std::vector<double> to_triangles, to_face;  // signed distances of what was seen, of each cell; kProbe_m: no triangle is near
@@ -66,16 +66,28 @@ bool LiesOnPlan(const MapSurface& seen, const Surface& face, const Eigen::Isomet
 
 }  // namespace
 
+std::vector<bool> MatchesOnOtherShapes(const SGraph& map, const AGraph& plan, const std::vector<Match>& matches,
+                                       const JointResult& estimate) {
+  const RayCaster caster(plan.mesh);
+  std::vector<bool> out;
+  for (const Match& match : matches) {
+    const bool of_wall = match.plan_surface.valid() && plan.surfaces[match.plan_surface.index()].wall.valid();
+    out.push_back(of_wall && LiesOnPlan(map.surfaces[match.map_surface], plan.surfaces[match.plan_surface.index()], estimate.T_plan_map,
+                                        caster, plan.origin));
+  }
+  return out;
+}
+
 std::vector<bool> LieOnOtherShapes(const SGraph& map, const AGraph& plan, const std::vector<Match>& matches, const JointResult& estimate) {
   std::vector<double> seen_m2(plan.walls.size(), 0), explained_m2(plan.walls.size(), 0);
-  const RayCaster caster(plan.mesh);
-  for (const Match& match : matches) {
-    if (!match.plan_surface.valid()) continue;
-    const WallId wall = plan.surfaces[match.plan_surface.index()].wall;
+  const std::vector<bool> on_other_shape = MatchesOnOtherShapes(map, plan, matches, estimate);
+  for (size_t i = 0; i < matches.size(); ++i) {
+    if (!matches[i].plan_surface.valid()) continue;
+    const WallId wall = plan.surfaces[matches[i].plan_surface.index()].wall;
     if (!wall.valid()) continue;
-    const MapSurface& seen = map.surfaces[match.map_surface];
-    seen_m2[wall.index()] += seen.area_m2;
-    if (LiesOnPlan(seen, plan.surfaces[match.plan_surface.index()], estimate.T_plan_map, caster, plan.origin)) explained_m2[wall.index()] += seen.area_m2;
+    const double area_m2 = map.surfaces[matches[i].map_surface].area_m2;
+    seen_m2[wall.index()] += area_m2;
+    if (on_other_shape[i]) explained_m2[wall.index()] += area_m2;
   }
   std::vector<bool> out;
   for (size_t w = 0; w < plan.walls.size(); ++w) out.push_back(seen_m2[w] > 0 && explained_m2[w] >= kMinExplained * seen_m2[w]);

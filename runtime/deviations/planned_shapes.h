@@ -11,10 +11,13 @@
 
 namespace plumb::runtime {
 
-// Per plan wall: most of what `matches` give it lies on triangles of the plan, all along, and not on the wall's own face, from which it is at
-// least twice as far. Walls as planned, and those that nothing was matched to: false.
-// O(cells of the matched surfaces * log triangles).
+// Per match: what was seen lies on triangles of the plan, all along, and not on the face that it was matched to, from which it is at least
+// twice as far. O(cells of the matched surfaces * log triangles).
+[[nodiscard]] std::vector<bool> MatchesOnOtherShapes(const SGraph& map, const AGraph& plan, const std::vector<Match>& matches,
+                                                     const JointResult& estimate);
+
+// Per plan wall: most of what `matches` give it is so. Walls as planned, and those that nothing was matched to: false.
 [[nodiscard]] std::vector<bool> LieOnOtherShapes(const SGraph& map, const AGraph& plan, const std::vector<Match>& matches,
-                                                const JointResult& estimate);
+                                                 const JointResult& estimate);
 
 }  // namespace plumb::runtime

@@ -196,7 +196,7 @@ class Presence {
       const bool within_gate = m.to_m > -options_.gate_m;
       if (on_itself || (within_gate && !on_other && sight.to.z() > g.z_low_m && sight.to.z() < g.z_high_m)) {
         if (on_itself || !things_.IsOneAt(sight)) ++cell->ended;
-      } else if (m.from_m >= options_.gate_m && (!within_gate || (on_other && m.to_m < -g.half_m - kBeyond_m))) {
+      } else if (m.from_m >= options_.gate_m && WouldMeet(g, m) && (!within_gate || (on_other && m.to_m < -g.half_m - kBeyond_m))) {
         ++cell->passed;
         if (cell->last_keyframe != sight.keyframe) ++cell->keyframes;
         cell->last_keyframe = sight.keyframe;
@@ -204,6 +204,12 @@ class Presence {
         if (seen_from.empty() || seen_from.back() != sight.keyframe) seen_from.push_back(sight.keyframe);
       }
     }
+  }
+
+  // Would the wall stop the line as well if it stood elsewhere within the gate? A flat line goes past the end of a wall that stands off.
+  [[nodiscard]] bool WouldMeet(const FaceGrid& g, const Meeting& m) const {
+    const double aside_m = std::abs(m.u_per_m) * options_.gate_m;
+    return m.u > aside_m && m.u < g.panel.length_m - aside_m;
   }
 
   [[nodiscard]] bool IsOpen(const Cell& cell) const {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <set>
 #include <utility>
 
 #include "runtime/coupling/coupling.h"
@@ -59,6 +60,7 @@ struct GraphEstimator::Impl {
   JointResult joint;
   std::vector<Match> matches;  // that `joint` is based on
   WallChanges changes;         // as last judged
+  std::set<std::pair<uint32_t, WallId>> other_shapes;  // map surfaces that are something else of the plan than this wall
   Eigen::Isometry3d T_plan_map = Eigen::Isometry3d::Identity();  // of the last fix
   Eigen::Isometry3d T_found = Eigen::Isometry3d::Identity();   // as the matcher found it
   bool ever_fixed = false;
@@ -92,6 +94,7 @@ struct GraphEstimator::Impl {
     joint = {};
     matches.clear();
     changes = {};
+    other_shapes.clear();
   }
 
   // Tries to find the map in the plan. A try that leaves several places open is no fix.
@@ -137,8 +140,9 @@ struct GraphEstimator::Impl {
     Solution out;
     out.matches = MatchSurfaces(mapper.graph(), plan, T_plan_map, known, options.coupling);
     // Whatever stands where a wall is missing is not that wall.
-    std::erase_if(out.matches,
-                  [&](const Match& m) { return m.plan_surface.valid() && changes.IsMissing(plan.surfaces[m.plan_surface.index()].wall); });
+    std::erase_if(out.matches, [&](const Match& m) {
+      return m.plan_surface.valid() && (changes.IsMissing(WallOf(m)) || other_shapes.contains({m.map_surface, WallOf(m)}));
+    });
     if (out.matches.empty()) return std::nullopt;
     JointOptions joint_options = SolverOptions();
     joint_options.covariances = covariances;
@@ -163,6 +167,19 @@ struct GraphEstimator::Impl {
     solved_all_at = num_keyframes;
   }
 
+  [[nodiscard]] WallId WallOf(const Match& match) const { return plan.surfaces[match.plan_surface.index()].wall; }
+
+  // What makes walls deviate and is something else that the plan has there.
+  void FindOtherShapes() {
+    const std::vector<bool> on_other_shape = MatchesOnOtherShapes(mapper.graph(), plan, matches, joint);
+    for (const WallEstimate& wall : joint.walls) {
+      if (wall.p_deviated < 0.5) continue;
+      for (size_t i = 0; i < matches.size(); ++i) {
+        if (on_other_shape[i] && WallOf(matches[i]) == wall.wall) other_shapes.insert({matches[i].map_surface, wall.wall});
+      }
+    }
+  }
+
   // The last word on a map that lies in the plan: with covariances, and without the walls that are not there.
   void OptimizeFinally() {
     Optimize(true);
@@ -170,6 +187,8 @@ struct GraphEstimator::Impl {
     changes.presence = JudgePresence(mapper.graph(), plan, joint, options.deviations.presence);
     const auto is_missing = [&](const WallEstimate& wall) { return changes.IsMissing(wall.wall); };
     if (std::any_of(joint.walls.begin(), joint.walls.end(), is_missing)) Optimize(true);
+    FindOtherShapes();
+    if (!other_shapes.empty()) Optimize(true);
     changes.unplanned = FindUnplannedWalls(mapper.graph(), plan, matches, joint, options.deviations.unplanned);
     changes.on_other_shape = LieOnOtherShapes(mapper.graph(), plan, matches, joint);
     changes.doorways = JudgeDoorways(mapper.graph(), plan, joint, changes.presence, options.deviations.doorways);

@@ -8,8 +8,10 @@
 #include <iterator>
 #include <map>
 #include <numbers>
+#include <utility>
 
 #include "runtime/coupling/mixture.h"
+#include "runtime/optimization/built_tolerance.h"
 #include "runtime/optimization/joint_problem.h"
 #include "runtime/optimization/level_votes.h"
 #include "runtime/optimization/place_seed.h"
@@ -18,7 +20,8 @@
 namespace plumb::runtime {
 namespace {
 
-constexpr double kSettled = 0.01;  // responsibilities that change less end the EM rounds
+constexpr double kSettled = 0.01;      // responsibilities that change less end the EM rounds
+constexpr double kNoThickness = 1e-3;  // of its prior: as good as none
 
 std::string CheckInput(const SGraph& map, const AGraph& plan, const std::vector<WallFrame>& frames, const std::vector<Match>& matches,
                        const JointOptions& options) {
@@ -57,7 +60,7 @@ class Optimizer {
  public:
   Optimizer(const SGraph& map, const AGraph& plan, const std::vector<WallFrame>& frames, const std::vector<Match>& matches,
             const Eigen::Isometry3d& T_plan_map, const JointOptions& options)
-      : map_(map), plan_(plan), frames_(frames), options_(options), schedule_(ScheduleOf(options.mode)) {
+      : map_(map), plan_(plan), frames_(frames), options_(options), fitted_(options), schedule_(ScheduleOf(options.mode)) {
     std::copy_if(matches.begin(), matches.end(), std::back_inserter(matches_),
                  [&](const Match& m) { return !map.surfaces[m.map_surface].observations.empty(); });
     for (const Keyframe& k : map.keyframes) state_.poses.push_back(PoseBlock(k.T_map_kf));
@@ -80,22 +83,23 @@ class Optimizer {
       Reseed(true);
       Reseed(true);  // the first correction may turn the plan, and measurements are linear in the turn
     }
-    JointProblem problem(map_, plan_, frames_, matches_, options_, state_);
+    std::optional<JointProblem> problem(std::in_place, map_, plan_, frames_, matches_, fitted_, state_);
     const int rounds = schedule_.alternate ? options_.em_rounds : 1;
     for (int round = 0; round < rounds; ++round) {
       if (round > 0 && schedule_.consensus) Reseed(false);
-      const double change = ExpectationStep(problem);
+      const double change = ExpectationStep(*problem);
       if (round > 1 && change < kSettled) break;
-      const JointProblem::Outcome outcome = problem.Solve();
-      result.iterations += outcome.iterations;
       result.em_rounds = round + 1;
-      result.converged = outcome.converged;
-      result.cost = outcome.cost;
-      result.message = outcome.message;
-      if (!outcome.usable) return result;
-      Measure();
+      if (!Solve(*problem, result)) return result;
     }
-    Report(options_.covariances ? problem.Covariances() : std::nullopt, result);
+    if (options_.covariances && schedule_.consensus) {
+      FitTolerance();
+      problem.reset();  // it holds the state
+      problem.emplace(map_, plan_, frames_, matches_, fitted_, state_);
+      ExpectationStep(*problem);
+      if (!Solve(*problem, result)) return result;
+    }
+    Report(options_.covariances ? problem->Covariances() : std::nullopt, result);
     return result;
   }
 
@@ -106,7 +110,31 @@ class Optimizer {
     state_.place[2] -= ConsensusHeight(LevelVotes(map_, plan_, matches_, Poses(state_), Place()), options_.level_sigma_m);
   }
 
-  void Measure() { measurements_ = MeasureWalls(map_, plan_, frames_, matches_, Poses(state_), Place(), options_); }
+  // False if the result is of no use.
+  bool Solve(JointProblem& problem, JointResult& result) {
+    const JointProblem::Outcome outcome = problem.Solve();
+    result.iterations += outcome.iterations;
+    result.converged = outcome.converged;
+    result.cost = outcome.cost;
+    result.message = outcome.message;
+    if (outcome.usable) measurements_ = Measured(fitted_);
+    return outcome.usable;
+  }
+
+  // A building that is truer to its plan than the tolerance tells better where the plan lies than the tolerance would have it.
+  void FitTolerance() {
+    JointOptions as_thick = options_;
+    as_thick.thickness_sigma_m *= kNoThickness;
+    const BuiltTolerance built = FitBuiltTolerance(measurements_, Measured(as_thick), responsibilities_, state_.bias_m, options_.coupling);
+    fitted_.thickness_sigma_m *= built.offset_ratio;
+    fitted_.coupling.offset_tau0_m *= built.offset_ratio;
+    fitted_.coupling.yaw_tau0_rad *= built.yaw_ratio;
+  }
+
+  [[nodiscard]] std::vector<WallMeasurement> Measured(const JointOptions& options) const {
+    return MeasureWalls(map_, plan_, frames_, matches_, Poses(state_), Place(), options);
+  }
+  void Measure() { measurements_ = Measured(fitted_); }
 
   // Wall-level consensus on where the plan lies. Between rounds it only steps in when another place is clearly better.
   void Reseed(bool always) {
@@ -129,11 +157,11 @@ class Optimizer {
     double change = 0;
     if (held()) return change;
     for (size_t w = 0; w < measurements_.size(); ++w) {
-      const Responsibilities r = AssessMixture(measurements_[w].At(state_.bias_m), measurements_[w].covariance, options_.coupling);
+      const Responsibilities r = AssessMixture(measurements_[w].At(state_.bias_m), measurements_[w].covariance, fitted_.coupling);
       change = std::max({change, std::abs(r.offset - responsibilities_[w].offset), std::abs(r.yaw - responsibilities_[w].yaw)});
       responsibilities_[w] = r;
       const bool uniform = schedule_.prior == EstimationSchedule::WallPrior::kUniform;
-      priors_[w] = uniform ? UniformInformation(options_.coupling) : PriorInformation(r, options_.coupling);
+      priors_[w] = uniform ? UniformInformation(fitted_.coupling) : PriorInformation(r, fitted_.coupling);
       problem.SetWallPrior(w, priors_[w]);
     }
     return change;
@@ -198,8 +226,9 @@ class Optimizer {
     const std::vector<MeasuredElsewhere> places = Places(w, rivals);
     for (const MeasuredElsewhere& place : places) e.place_sigma_m += place.probability * place.shift.x() * place.shift.x();
     e.place_sigma_m = std::sqrt(e.place_sigma_m);
-    const WallBelief belief = BeliefOf(e.evidence, places, estimate, options_.coupling);
-    e.p_deviated = belief.p_deviated;
+    const WallBelief belief = BeliefOf(e.evidence, places, estimate, fitted_.coupling);
+    // What is a deviation does not depend on how well the rest was built.
+    e.p_deviated = BeliefOf(e.evidence, places, estimate, options_.coupling).p_deviated;
     // Wider where the solve's covariance is that of one component alone.
     Eigen::Vector4d widen = Eigen::Vector4d::Ones();
     widen.head<2>() = belief.sigma.cwiseQuotient(e.cov.diagonal().cwiseSqrt()).cwiseMax(1.0);
@@ -221,6 +250,7 @@ class Optimizer {
 
   void CountSeen(std::vector<WallEstimate>& walls) const {
     std::map<SurfaceId, SeenSurface> seen;
+    std::map<WallId, std::pair<double, double>> spans;
     for (const Match& m : matches_) {
       if (!m.plan_surface.valid()) continue;
       SeenSurface& s = seen[m.plan_surface];
@@ -228,6 +258,7 @@ class Optimizer {
       const double share = m.mistaken.empty() ? 1.0 : ShareThatCounts(m);
       s.num_points += share * map_.surfaces[m.map_surface].num_points;
       s.observed_m2 += share * map_.surfaces[m.map_surface].area_m2;
+      AddSpan(m, spans);
     }
     for (const auto& [id, s] : seen) {
       const WallId wall = plan_.surfaces[id.index()].wall;
@@ -235,6 +266,21 @@ class Optimizer {
       e.seen.push_back(s);
       e.num_points += s.num_points;
       e.observed_m2 += s.observed_m2;
+      e.span_m = spans[wall].second - spans[wall].first;
+    }
+  }
+
+  // From where to where along its wall the match's patch reaches.
+  void AddSpan(const Match& m, std::map<WallId, std::pair<double, double>>& spans) const {
+    const MapSurface& patch = map_.surfaces[m.map_surface];
+    const WallId wall = plan_.surfaces[m.plan_surface.index()].wall;
+    const WallFrame& frame = frames_[wall.index()];
+    auto& [from, to] = spans.try_emplace(wall, 1e300, -1e300).first->second;
+    for (const Eigen::Vector2d& end : {patch.start, patch.end}) {
+      const Eigen::Vector3d at = Place() * Eigen::Vector3d(end.x(), end.y(), 0) - frame.pivot;
+      const double u = at.y() * frame.normal.x() - at.x() * frame.normal.y();
+      from = std::min(from, u);
+      to = std::max(to, u);
     }
   }
 
@@ -255,6 +301,7 @@ class Optimizer {
   const std::vector<WallFrame>& frames_;
   std::vector<Match> matches_;
   const JointOptions& options_;
+  JointOptions fitted_;  // the same, with the tolerance that the building was built to
   const EstimationSchedule schedule_;
   JointState state_;
   std::vector<WallMeasurement> measurements_;

@@ -7,7 +7,6 @@
 namespace plumb::runtime {
 namespace {
 
-constexpr double kPoseSigma_m = 0.003, kPoseSigma_rad = 0.0015;  // between walls: what the poses add to their own observations
 constexpr double kLoosePrior_m = 1.0, kLoosePrior_rad = 0.35;   // a short patch leaves the yaw open
 
 // Least squares over one wall's (offset, yaw, thickness error) and the range bias.

@@ -10,6 +10,9 @@
 
 namespace plumb::runtime {
 
+// Between walls: what poses add to their own observations.
+inline constexpr double kPoseSigma_m = 0.003, kPoseSigma_rad = 0.0015;
+
 struct WallMeasurement {
   WallId wall;
   Eigen::Vector2d deviation;   // (offset_m, yaw_rad), no prior, if there were no range bias; ...

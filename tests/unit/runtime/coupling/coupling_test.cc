@@ -171,6 +171,25 @@ TEST(MatchSurfaces, WallBehindWinsEvenIfTheCupboardStandsOnThePlannedLine) {
   EXPECT_FALSE(scene.Of(house, front).valid());
 }
 
+// Units along the other side of a wall whose face is seen would make it 0.3 m thick; so would one seen higher up than the wall's own piece.
+TEST(MatchSurfaces, AFrontThatMakesAWallTooThickIsFurniture) {
+  const AGraph house = test::MakeHouse();
+  Scene scene;
+  const uint32_t in_a = scene.Add({4.94, 0.5}, {4.94, 3.0}, 0.1, 2.2), front = scene.Add({5.26, 5.0}, {5.26, 1.0}, 0.1, 1.0);
+  EXPECT_EQ(scene.Of(house, in_a), SurfaceId(1));
+  EXPECT_FALSE(scene.Of(house, front).valid());
+
+  Scene moved;  // the wall stands 0.2 m further in A, and what is seen in C reaches as high as it does
+  const uint32_t far_in_a = moved.Add({4.74, 0.5}, {4.74, 3.0}, 0.1, 2.2), in_c = moved.Add({4.86, 5.0}, {4.86, 1.0}, 0.1, 2.2);
+  EXPECT_EQ(moved.Of(house, far_in_a), SurfaceId(1));
+  EXPECT_EQ(moved.Of(house, in_c), SurfaceId(11));
+
+  Scene hidden;  // the same, behind units that stand where C has its face
+  const uint32_t higher = hidden.Add({4.74, 0.5}, {4.74, 3.0}, 0.1, 2.2), units = hidden.Add({5.06, 5.0}, {5.06, 1.0}, 0.1, 1.0);
+  EXPECT_EQ(hidden.Of(house, higher), SurfaceId(1));
+  EXPECT_FALSE(hidden.Of(house, units).valid());
+}
+
 // The front of low units as long as the wall, of which nothing but single points is seen above them.
 TEST(MatchSurfaces, WhatIsSeenPastIsNoWall) {
   const AGraph house = test::MakeHouse();

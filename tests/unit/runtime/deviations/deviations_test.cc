@@ -127,6 +127,24 @@ TEST(AssessDeviations, ASmallFaceAtAnAngleIsABoxAndNoWall) {
   EXPECT_EQ(status(0.2, 1.2), SurfaceStatus::kDeviated);
 }
 
+TEST(AssessDeviations, FewViewsAlongMoreThanABoxAreOfAWall) {
+  const AGraph house = test::MakeHouse();
+  JointResult estimate = EstimateOfEastWall(house, {0.03, 0.2}, Eigen::Matrix2d::Identity() * 1e-6, 0.7);
+  estimate.walls[0].span_m = 1.2;
+  EXPECT_EQ(AssessDeviations(house, estimate).surfaces[9].status, SurfaceStatus::kUnobserved);
+  estimate.walls[0].span_m = 2.5;
+  EXPECT_EQ(AssessDeviations(house, estimate).surfaces[9].status, SurfaceStatus::kDeviated);
+}
+
+TEST(AssessDeviations, AWallThatOneInTwentyTimesStandsAsPlannedIsNotReported) {
+  const AGraph house = test::MakeHouse();
+  JointResult estimate = EstimateOfEastWall(house, {0.03, 0}, Eigen::Matrix2d::Identity() * 1e-6, 3);
+  estimate.walls[0].p_deviated = 0.95;
+  EXPECT_EQ(AssessDeviations(house, estimate).surfaces[9].status, SurfaceStatus::kUnobserved);
+  estimate.walls[0].p_deviated = 0.995;
+  EXPECT_EQ(AssessDeviations(house, estimate).surfaces[9].status, SurfaceStatus::kDeviated);
+}
+
 TEST(AssessDeviations, WhatCouldNotHaveBeenFoundIsUnobservedAndNotAsPlanned) {
   const AGraph house = test::MakeHouse();
   JointResult estimate = EstimateOfEastWall(house, {}, Eigen::Vector2d(0.01 * 0.01, 1e-6).asDiagonal(), 30);

@@ -56,5 +56,19 @@ TEST(LieOnOtherShapes, KeepsAWallWhoseFacesAreOffItsTrianglesFromBeingCalledDevi
   EXPECT_EQ(status(), SurfaceStatus::kUnobserved);
 }
 
+TEST(MatchesOnOtherShapes, TellsThemFromTheMatchesOfWallsAsPlanned) {
+  const AGraph plan = WithFacesOff("wall-middle", 0.06);
+  const test::Survey s = test::DriveThrough(plan, test::MakeHouse());
+  const std::vector<bool> on_other_shape = MatchesOnOtherShapes(s.map, plan, s.matches, s.estimate);
+  ASSERT_EQ(on_other_shape.size(), s.matches.size());
+  size_t found = 0;
+  for (size_t i = 0; i < s.matches.size(); ++i) {
+    if (!on_other_shape[i]) continue;
+    ++found;
+    EXPECT_EQ(plan.surfaces[s.matches[i].plan_surface.index()].wall.index(), test::WallOf(plan, "wall-middle"));
+  }
+  EXPECT_GE(found, 2u);  // both of its faces
+}
+
 }  // namespace
 }  // namespace plumb::runtime

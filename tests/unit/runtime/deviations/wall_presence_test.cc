@@ -80,6 +80,26 @@ TEST(JudgePresence, AWallThatStandsElsewhereIsNotMissing) {
   }
 }
 
+// Seen at an angle, a wall that stands off lets pass what would have met its end: from 1 m before the middle wall, which ends at y = 6.
+TEST(JudgePresence, LinesThatAWallStandingOffWouldLetPassDoNotCount) {
+  const AGraph plan = test::MakeHouse();
+  const auto lines = [&](const Eigen::Vector2f& step) {
+    SGraph map;
+    for (uint32_t id = 0; id < 4; ++id) {
+      Keyframe keyframe;
+      keyframe.id = id;
+      keyframe.T_map_kf.translation() = Eigen::Vector3d(4.0, 4.9, 1.0);
+      for (int i = 0; i < 100; ++i) keyframe.points.push_back({step.x(), step.y(), 0.003f * static_cast<float>(i)});
+      map.keyframes.push_back(keyframe);
+    }
+    double sum = 0;
+    for (const FacePresence& face : JudgePresence(map, plan, JointResult())[test::WallOf(plan, "wall-middle")].faces) sum += face.lines;
+    return sum;
+  };
+  EXPECT_EQ(lines({2.0f, 1.4f}), 0);     // meets it at y = 5.6, and not at all 0.65 m further on
+  EXPECT_GT(lines({2.0f, -1.4f}), 300);  // at y = 4.2
+}
+
 TEST(JudgePresence, AWallThatIsHalfBuiltIsNotMissing) {
   const AGraph plan = test::MakeHouse();
   AGraph built = plan;

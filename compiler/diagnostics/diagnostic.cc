@@ -7,6 +7,8 @@
 #include <map>
 #include <utility>
 
+#include "schema/counted.h"
+
 namespace plumb::compiler {
 namespace {
 
@@ -139,7 +141,7 @@ std::string DiagnosticsToText(const std::vector<Diagnostic>& diagnostics, const 
       fmt::format_to(write, "    and {} more of {} {}\n", total[d->kind] - max_per_kind, CodeOf(d->kind), NameOf(d->kind));
     }
   }
-  if (errors + warnings > 0) fmt::format_to(write, "{} error(s), {} warning(s)\n", errors, warnings);
+  if (errors + warnings > 0) fmt::format_to(write, "{}, {}\n", Counted(errors, "error"), Counted(warnings, "warning"));
   return out;
 }
 

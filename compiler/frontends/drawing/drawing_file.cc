@@ -8,6 +8,7 @@
 #include "compiler/frontends/drawing/plane.h"
 #include "compiler/frontends/drawing/sheets.h"
 #include "compiler/frontends/drawing/units.h"
+#include "schema/counted.h"
 
 namespace plumb::compiler {
 namespace {
@@ -40,7 +41,7 @@ bool AppendSheets(Drawing drawing, const PlanStorey& storey, const DrawingFileOp
   std::vector<Drawing> sheets = SplitSheets(std::move(drawing));
   if (options.sheet > static_cast<int>(sheets.size())) {
     sink.Emit(DiagnosticKind::kSheetMissing, {},
-              fmt::format("sheet {} is asked for, but the drawing has {} plan(s)", options.sheet, sheets.size()));
+              fmt::format("sheet {} is asked for, but the drawing has {}", options.sheet, Counted(sheets.size(), "plan")));
     return false;
   }
   if (options.sheet > 0) return AppendStorey(sheets[static_cast<size_t>(options.sheet - 1)], storey, options.plan, plan, sink);

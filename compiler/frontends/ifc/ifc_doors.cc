@@ -14,6 +14,7 @@ using Eigen::Vector2d;
 using Eigen::Vector3d;
 
 constexpr int kMaxDepth = 8;
+constexpr size_t kMaxSwings = 256;  // in one door; mapped items can multiply them without bound
 constexpr double kMinSwing_rad = std::numbers::pi / 6, kMaxSwing_rad = 2 * std::numbers::pi / 3;  // of a leaf, from closed to open
 constexpr double kFlat = 0.02;                                                                    // what a swing may rise of its radius
 
@@ -116,7 +117,7 @@ Matrix3d DoorReader::FrameOfType(const IfcInstance& door, const IfcInstance& typ
 }
 
 void DoorReader::AddSwings(const IfcInstance& item, const Affine3d& T_door_item, int depth, std::vector<Swing>& swings) const {
-  if (!item || depth > kMaxDepth || !model_.Spend(1, item.index)) return;
+  if (!item || depth > kMaxDepth || swings.size() > kMaxSwings || !model_.Spend(1, item.index)) return;
   const auto add_all = [&](StepValue references, const Affine3d& T) {
     for (const StepValue reference : references.Items()) AddSwings(model_.Follow(reference), T, depth + 1, swings);
   };
@@ -135,8 +136,8 @@ void DoorReader::AddSwings(const IfcInstance& item, const Affine3d& T_door_item,
     case IfcType::kIfcMappedItem: {
       const IfcInstance map = model_.Follow(item[attribute::kMappingSource]);
       if (!map || map.type != IfcType::kIfcRepresentationMap) return;
-      const IfcInstance representation = model_.Follow(map[attribute::kMappedRepresentation]);
-      if (representation) add_all(representation[attribute::kRepresentationItems], T_door_item * Mapping(item, map));
+      const Affine3d T_door_map = T_door_item * Mapping(item, map);
+      for (const Swing& s : InMap(map, depth)) swings.push_back({T_door_map * s.hinge, T_door_map * s.start, T_door_map * s.end});
       return;
     }
     case IfcType::kIfcGeometricSet:
@@ -153,6 +154,17 @@ void DoorReader::AddSwings(const IfcInstance& item, const Affine3d& T_door_item,
     case IfcType::kIfcIndexedPolyCurve: add_arcs(); return;
     default: return;  // bodies, texts, other curves
   }
+}
+
+// Many doors share one: it is read once. Empty while it is, so that a map within itself ends there.
+const std::vector<DoorReader::Swing>& DoorReader::InMap(const IfcInstance& map, int depth) const {
+  if (!in_map_.try_emplace(map.index).second) return in_map_[map.index];
+  std::vector<Swing> swings;
+  if (const IfcInstance representation = model_.Follow(map[attribute::kMappedRepresentation])) {
+    for (const StepValue item : representation[attribute::kRepresentationItems].Items())
+      AddSwings(model_.Follow(item), Affine3d::Identity(), depth + 1, swings);
+  }
+  return in_map_[map.index] = std::move(swings);
 }
 
 std::vector<FramedLeaf> DoorReader::Drawn(const IfcInstance& door, double door_width_m) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <unordered_map>
 #include <vector>
 
 #include "compiler/frontends/ifc/ifc_curves.h"
@@ -36,6 +37,8 @@ class DoorReader {
   [[nodiscard]] Eigen::Matrix3d FrameOfType(const IfcInstance& door, const IfcInstance& type) const;
   [[nodiscard]] std::vector<FramedLeaf> Drawn(const IfcInstance& door, double door_width_m) const;
   void AddSwings(const IfcInstance& item, const Eigen::Affine3d& T_door_item, int depth, std::vector<Swing>& swings) const;
+  // Of an IfcRepresentationMap, in its own frame.
+  [[nodiscard]] const std::vector<Swing>& InMap(const IfcInstance& map, int depth) const;
   // Of an IfcMappedItem: how it lays the mapped representation.
   [[nodiscard]] Eigen::Affine3d Mapping(const IfcInstance& item, const IfcInstance& map) const;
   [[nodiscard]] std::vector<IfcInstance> Items(const IfcInstance& door) const;  // of all its representations
@@ -44,6 +47,7 @@ class DoorReader {
   PlacementReader& placements_;
   const Relations& relations_;
   CurveReader curves_;
+  mutable std::unordered_map<uint32_t, std::vector<Swing>> in_map_;
 };
 
 }  // namespace plumb::compiler

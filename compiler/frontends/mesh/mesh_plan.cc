@@ -14,6 +14,7 @@
 #include "compiler/frontends/mesh/mesh_parts.h"
 #include "compiler/frontends/mesh/mesh_voids.h"
 #include "compiler/geometry/sweep.h"
+#include "schema/counted.h"
 
 namespace plumb::compiler {
 namespace {
@@ -177,7 +178,8 @@ class Planner {
     const double floor_z_m = storeys_[s].range.floor_z_m;
     const bool passage = IsPassage(o, floor_z_m);
     // Down to the floor, also where the wall or a threshold ends above it.
-    for (const auto& footprint : o.footprints) AppendSolid(Upright(footprint, passage ? std::min(o.z0_m, floor_z_m) : o.z0_m, o.z1_m), opening.body);
+    for (const auto& footprint : o.footprints)
+      AppendSolid(Upright(footprint, passage ? std::min(o.z0_m, floor_z_m) : o.z0_m, o.z1_m), opening.body);
     opening.width_m = o.width_m;
     opening.height_m = o.z1_m - o.z0_m;
     if (!passage) {
@@ -206,8 +208,8 @@ class Planner {
     }
     if (piece.closed_gaps > 0) {
       sink_.Emit(DiagnosticKind::kMeshGapClosed, location,
-                 fmt::format("{} gap(s) of full height in the line of the wall around ({:.2f}, {:.2f}) are taken for doorways",
-                             piece.closed_gaps, at.x(), at.y()));
+                 fmt::format("{} of full height in the line of the wall around ({:.2f}, {:.2f}) {}", Counted(piece.closed_gaps, "gap"),
+                             at.x(), at.y(), piece.closed_gaps == 1 ? "is taken for a doorway" : "are taken for doorways"));
     }
     if (piece.parapet) {
       sink_.Emit(DiagnosticKind::kMeshParapet, location,
@@ -278,7 +280,7 @@ class Planner {
   const MeshOptions& options_;
   DiagnosticSink& sink_;
   std::vector<MeshObject> wall_objects_;
-  std::vector<uint32_t> source_of_;  // in objects_, by wall object
+  std::vector<uint32_t> source_of_;                          // in objects_, by wall object
   std::vector<FaceDirection> face_directions_, directions_;  // of the mesh's faces; these, then those of doorways in curves
   std::vector<StoreyWalls> storeys_;
   std::vector<std::vector<bool>> in_wall_;   // by object and triangle

@@ -37,7 +37,7 @@ TEST(Report, TextHasPlaceHintAndAnswer) {
             "    hint: draw it\n"
             "plans/my house.ifc:992:1: warning: another one [PL2301]\n"
             "    at: #124 IfcWall\n"
-            "1 error(s), 2 warning(s)\n"
+            "1 error, 2 warnings\n"
             "plans/my house.ifc: no robot should localize in this before 1 finding is mended (0 rooms)\n");
 }
 
@@ -108,7 +108,7 @@ TEST(Report, SarifOfAnUnusableFileIsNoSuccess) {
 TEST(DiagnosticsToText, ListsAFewOfEachKind) {
   const std::vector<Diagnostic> many(5, Diagnostic{DiagnosticKind::kWallWithoutBody, Severity::kWarning, {}, "m", ""});
   EXPECT_EQ(DiagnosticsToText(many, "p", 2),
-            "p: warning: m [PL2301]\np: warning: m [PL2301]\n    and 3 more of PL2301 WallWithoutBody\n0 error(s), 5 warning(s)\n");
+            "p: warning: m [PL2301]\np: warning: m [PL2301]\n    and 3 more of PL2301 WallWithoutBody\n0 errors, 5 warnings\n");
 }
 
 }  // namespace

@@ -160,6 +160,29 @@ TEST(IfcDoors, NothingStatedOrDrawnIsUnknown) {
   EXPECT_TRUE(LeavesOf(scene).empty());
 }
 
+TEST(IfcDoors, ASymbolWithinItselfEnds) {
+  Scene scene;
+  scene.AddSwing(70, {0, 0}, 1.2, 0);
+  scene.symbol += ",#33";
+  ExpectLeaf(LeavesOf(scene).at(0), LeafOperation::kSwing, {-1, 0}, {0, 1});
+}
+
+// Each of eight maps holds the next a hundred times.
+TEST(IfcDoors, SymbolsThatMultiplyEndSoon) {
+  Scene scene;
+  scene.AddSwing(70, {0, 0}, 1.2, 0);
+  for (int level = 0; level < 8; ++level) {
+    const int id = 100 + 10 * level;
+    scene.curves += fmt::format("#{}=IFCMAPPEDITEM(#{},#36);\n#{}=IFCREPRESENTATIONMAP(#35,#{});\n", id, id + 1, id + 1, id + 2);
+    std::string items = level == 7 ? "#70" : fmt::format("#{}", id + 10);
+    const std::string one = items;
+    for (int i = 1; i < 100; ++i) items += "," + one;
+    scene.curves += fmt::format("#{}=IFCSHAPEREPRESENTATION($,'FootPrint','Curve2D',({}));\n", id + 2, items);
+  }
+  scene.symbol += ",#100";
+  EXPECT_EQ(LeavesOf(scene).size(), 1u);
+}
+
 TEST(IfcDoors, PeoplesOwnWords) {
   Scene scene;
   scene.type = TypeOf(".USERDEFINED.", "'Double panel sliding'");

@@ -19,7 +19,8 @@ bool Meet(const Panel& panel, const Sight& sight, Meeting* meeting) {
   const Eigen::Vector3d step = sight.to - sight.from;
   const double t = side * from / closer;
   const Eigen::Vector3d at = sight.from + t * step;
-  *meeting = {side * from, side * to, panel.U(at.head<2>()), at.z(), panel.along.dot(step.head<2>()) / closer, t * step.norm(), closer / step.norm()};
+  *meeting = {side * from,     side * to,           panel.U(at.head<2>()), at.z(), panel.along.dot(step.head<2>()) / closer,
+              t * step.norm(), closer / step.norm()};
   return true;
 }
 

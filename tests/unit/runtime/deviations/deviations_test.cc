@@ -141,7 +141,7 @@ TEST(AssessDeviations, AWallThatOneInTwentyTimesStandsAsPlannedIsNotReported) {
   JointResult estimate = EstimateOfEastWall(house, {0.03, 0}, Eigen::Matrix2d::Identity() * 1e-6, 3);
   estimate.walls[0].p_deviated = 0.95;
   EXPECT_EQ(AssessDeviations(house, estimate).surfaces[9].status, SurfaceStatus::kUnobserved);
-  estimate.walls[0].p_deviated = 0.995;
+  estimate.walls[0].p_deviated = 0.98;
   EXPECT_EQ(AssessDeviations(house, estimate).surfaces[9].status, SurfaceStatus::kDeviated);
 }
 

@@ -10,7 +10,7 @@
 
 #include "runtime/coupling/wall_frame.h"
 #include "runtime/odometry/planar/pose2.h"
-#include "runtime/optimization/plane_view.h"
+#include "runtime/mapping/plane_view.h"
 
 namespace plumb::runtime {
 

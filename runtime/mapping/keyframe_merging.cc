@@ -7,14 +7,6 @@ namespace {
 
 constexpr size_t kLeastPoints = 500;  // a keyframe with fewer is not thinned: it could not be matched by them
 
-std::vector<Observation>::const_iterator Find(const std::vector<Observation>& observations, uint32_t keyframe) {
-  const auto at =
-      std::lower_bound(observations.begin(), observations.end(), keyframe, [](const Observation& o, uint32_t k) { return o.keyframe < k; });
-  return at != observations.end() && at->keyframe == keyframe ? at : observations.end();
-}
-
-bool Saw(const MapSurface& surface, uint32_t keyframe) { return Find(surface.observations, keyframe) != surface.observations.end(); }
-
 struct SeenPoints {
   const MapSurface* surface = nullptr;
   double num_points = 0;
@@ -26,8 +18,8 @@ std::optional<uint32_t> RedundantTo(const SGraph& graph, uint32_t keyframe, cons
   std::vector<SeenPoints> well_known;
   double num_points = 0;
   for (const MapSurface& surface : graph.surfaces) {
-    const auto seen = Find(surface.observations, keyframe);
-    if (seen == surface.observations.end()) continue;
+    const Observation* const seen = FindObservation(surface, keyframe);
+    if (seen == nullptr) continue;
     num_points += seen->stats.count();
     if (surface.observations.size() > static_cast<size_t>(options.well_known_views)) well_known.push_back({&surface, seen->stats.count()});
   }
@@ -38,7 +30,7 @@ std::optional<uint32_t> RedundantTo(const SGraph& graph, uint32_t keyframe, cons
     const Keyframe& into = graph.keyframes[other];
     if (into.merged || (into.T_map_kf.translation() - at).norm() >= options.redundant_distance_m) continue;
     double shared = 0;
-    for (const SeenPoints& seen : well_known) shared += Saw(*seen.surface, other) ? seen.num_points : 0;
+    for (const SeenPoints& seen : well_known) shared += FindObservation(*seen.surface, other) != nullptr ? seen.num_points : 0;
     if (shared <= most) continue;
     most = shared;
     best = other;
@@ -54,10 +46,10 @@ void MergeKeyframe(uint32_t keyframe, uint32_t into, SGraph* graph) {
   merged.standpoints = std::vector<Keyframe::Standpoint>();
   for (MapSurface& surface : graph->surfaces) {
     std::vector<Observation>& observations = surface.observations;
-    const auto seen = Find(observations, keyframe);
-    if (seen == observations.end()) continue;
+    const Observation* const seen = FindObservation(surface, keyframe);
+    if (seen == nullptr) continue;
     const Observation moved{into, seen->stats.Transformed(merged.merged->T_into_kf)};
-    observations.erase(seen);
+    observations.erase(observations.begin() + (seen - observations.data()));
     const auto at =
         std::lower_bound(observations.begin(), observations.end(), into, [](const Observation& o, uint32_t k) { return o.keyframe < k; });
     if (at != observations.end() && at->keyframe == into) {

@@ -11,15 +11,16 @@
 #include "runtime/mapping/planar_segmentation.h"
 #include "runtime/mapping/pose_graph.h"
 #include "runtime/mapping/segmentation.h"
+#include "runtime/mapping/view_alignment.h"
 #include "runtime/odometry/planar/planar_scan.h"
 
 namespace plumb::runtime {
 namespace {
 
-constexpr double kPointShare = 2.0 / 3.0;    // of a point's noise in the spread about a wall
-constexpr double kUntimedSweep_s = 0.1;      // what a sweep without times is taken to last: that of most lidars
-constexpr double kPlanarSpacing_m = 0.04;    // of the points that planar scans are matched by
-constexpr double kSettled_m = 0.005, kSettled_rad = 0.001;  // a solve that moves no keyframe by more changes nothing
+constexpr double kPointShare = 2.0 / 3.0;                              // of a point's noise in the spread about a wall
+constexpr double kUntimedSweep_s = 0.1;                                // what a sweep without times is taken to last: that of most lidars
+constexpr double kPlanarSpacing_m = 0.04;                              // of the points that planar scans are matched by
+constexpr double kSettled_m = 0.005, kSettled_rad = 0.001;             // a solve that moves no keyframe by more changes nothing
 constexpr double kStandingStill_m = 0.05, kStandingStill_rad = 0.026;  // a keyframe this close to the last one tells nothing new
 
 struct Distance {
@@ -142,9 +143,20 @@ void Mapper::BoundKeyframes() {
   const size_t recent = static_cast<size_t>(options_.recent_keyframes);
   if (graph_.keyframes.size() > recent) {
     const uint32_t oldest = static_cast<uint32_t>(graph_.keyframes.size() - recent - 1);
-    if (const std::optional<uint32_t> into = RedundantTo(graph_, oldest, options_)) MergeKeyframe(oldest, *into, &graph_);
+    if (const std::optional<uint32_t> into = RedundantTo(graph_, oldest, options_)) Merge(oldest, *into);
   }
   BoundPoints(static_cast<size_t>(options_.max_map_points), &graph_.keyframes);
+}
+
+// Merged, the two are one body, which no solve will bend: unless a plan has solved their poses, odometry's little errors have to be taken
+// out now.
+void Mapper::Merge(uint32_t keyframe, uint32_t into) {
+  std::vector<Keyframe>& keyframes = graph_.keyframes;
+  if (!poses_held_) keyframes[keyframe].T_map_kf = keyframes[into].T_map_kf * AlignedPose(graph_, keyframe, into, options_);
+  MergeKeyframe(keyframe, into, &graph_);
+  for (size_t i = 0; i < graph_.surfaces.size(); ++i) {
+    if (FindObservation(graph_.surfaces[i], into) != nullptr) Recompute(keyframes, &graph_.surfaces[i], &tracks_[i]);
+  }
 }
 
 // After a planar keyframe.

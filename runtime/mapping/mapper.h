@@ -54,6 +54,7 @@ class Mapper {
   void CloseSpatialLoops();
   void MergeDuplicates();
   void BoundKeyframes();
+  void Merge(uint32_t keyframe, uint32_t into);
 
   MapperOptions options_;
   SGraph graph_;

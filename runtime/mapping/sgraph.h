@@ -3,6 +3,7 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <vector>
@@ -24,9 +25,7 @@ struct PlaneStats {
   [[nodiscard]] double count() const { return C(3, 3); }
   [[nodiscard]] Eigen::Vector3d centroid() const { return C.block<3, 1>(0, 3) / C(3, 3); }
   // Of the points moved by T.
-  [[nodiscard]] PlaneStats Transformed(const Eigen::Isometry3d& T) const {
-    return {T.matrix() * C * T.matrix().transpose()};
-  }
+  [[nodiscard]] PlaneStats Transformed(const Eigen::Isometry3d& T) const { return {T.matrix() * C * T.matrix().transpose()}; }
 };
 
 // Plane n . x + d = 0, n a unit vector into the free space (towards the sensor that saw it).
@@ -78,6 +77,13 @@ struct MapSurface {
   [[nodiscard]] double length_m() const { return (end - start).norm(); }
 };
 
+// Of the surface from `keyframe`; null if it has not seen it. Observations are in the keyframes' order.
+[[nodiscard]] inline const Observation* FindObservation(const MapSurface& surface, uint32_t keyframe) {
+  const auto at = std::lower_bound(surface.observations.begin(), surface.observations.end(), keyframe,
+                                   [](const Observation& o, uint32_t k) { return o.keyframe < k; });
+  return at != surface.observations.end() && at->keyframe == keyframe ? &*at : nullptr;
+}
+
 struct Keyframe {
   uint32_t id = 0;
   double stamp_s = 0;
@@ -124,8 +130,8 @@ struct SGraph {
   // no floors and ceilings, and height, roll and pitch of keyframes are conventions.
   bool planar = false;
   std::vector<Keyframe> keyframes;   // ids are stable; merged ones keep their slot, without points
-  std::vector<PoseEdge> edges;  // between keyframes, of their levelled frames; by a planar laser: odometry's steps and the loops
-  std::vector<SpatialEdge> loops;  // between keyframes, by any other sensor
+  std::vector<PoseEdge> edges;       // between keyframes, of their levelled frames; by a planar laser: odometry's steps and the loops
+  std::vector<SpatialEdge> loops;    // between keyframes, by any other sensor
   std::vector<MapSurface> surfaces;  // ids are stable; merged ones keep their slot with no observations
 };
 

@@ -9,8 +9,8 @@
 #include <cmath>
 
 #include "runtime/coupling/wall_frame.h"
+#include "runtime/mapping/plane_view.h"
 #include "runtime/odometry/planar/pose2.h"
-#include "runtime/optimization/plane_view.h"
 
 namespace plumb::runtime {
 
@@ -100,7 +100,7 @@ struct OdometryResidual {
 // Motion between two keyframes in the plane, of their levelled frames. R_map_kf = Rz(yaw) * leveling, which is held.
 struct LevelStepResidual {
   Pose2 T_a_b;
-  Eigen::Matrix3d sqrt_information;  // of (x, y, yaw), in the axes of a
+  Eigen::Matrix3d sqrt_information;         // of (x, y, yaw), in the axes of a
   Eigen::Quaterniond unlevel_a, unlevel_b;  // inverse of leveling
   template <class T>
   bool operator()(const T* pose_a, const T* pose_b, T* r) const {

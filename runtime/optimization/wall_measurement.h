@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "runtime/coupling/wall_frame.h"
+#include "runtime/mapping/plane_view.h"
 #include "runtime/optimization/joint_optimizer.h"
-#include "runtime/optimization/plane_view.h"
 
 namespace plumb::runtime {
 

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "runtime/optimization/plane_view.h"
+#include "runtime/mapping/plane_view.h"
 #include "tests/support/house.h"
 #include "tests/support/synthetic_sgraph.h"
 

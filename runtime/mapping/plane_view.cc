@@ -1,4 +1,4 @@
-#include "runtime/optimization/plane_view.h"
+#include "runtime/mapping/plane_view.h"
 
 #include <algorithm>
 #include <cmath>

@@ -20,8 +20,8 @@ struct PlaneMoments {
 struct ViewNoise {
   double point_sigma_m = 0.03, correlation = 10, floor_m = 0.005, floor_rad = 0.003;
   double edge_m2 =
-      0.002;  // height times width of what clings to a surface's edge (frames, skirtings, rounded corners): it turns short views
-  Smear smear = {};        // of what the keyframe saw, by its unknown motion
+      0.002;         // height times width of what clings to a surface's edge (frames, skirtings, rounded corners): it turns short views
+  Smear smear = {};  // of what the keyframe saw, by its unknown motion
 };
 
 // Residual of a predicted plane (n, d) in the view's frame: [(n.c + d) w_c, n.u w_u, n.v w_v]; zero on the points' own plane.

@@ -169,7 +169,7 @@ struct GraphEstimator::Impl {
 
   [[nodiscard]] WallId WallOf(const Match& match) const { return plan.surfaces[match.plan_surface.index()].wall; }
 
-  // What makes walls deviate and is something else that the plan has there.
+  // What makes walls deviate and is something else that the plan has there. Told anew each time: what was seen since may tell otherwise.
   void FindOtherShapes() {
     const std::vector<bool> on_other_shape = MatchesOnOtherShapes(mapper.graph(), plan, matches, joint);
     for (const WallEstimate& wall : joint.walls) {
@@ -182,6 +182,7 @@ struct GraphEstimator::Impl {
 
   // The last word on a map that lies in the plan: with covariances, and without the walls that are not there.
   void OptimizeFinally() {
+    other_shapes.clear();
     Optimize(true);
     if (matches.empty()) return;
     changes.presence = JudgePresence(mapper.graph(), plan, joint, options.deviations.presence);

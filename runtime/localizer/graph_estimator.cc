@@ -136,7 +136,8 @@ struct GraphEstimator::Impl {
     JointResult joint;
   };
 
-  [[nodiscard]] std::optional<Solution> Solved(bool covariances) const {
+  // `judging`: with all that a judgement of walls rests on.
+  [[nodiscard]] std::optional<Solution> Solved(bool judging) const {
     Solution out;
     out.matches = MatchSurfaces(mapper.graph(), plan, T_plan_map, known, options.coupling);
     // Whatever stands where a wall is missing is not that wall.
@@ -145,7 +146,8 @@ struct GraphEstimator::Impl {
     });
     if (out.matches.empty()) return std::nullopt;
     JointOptions joint_options = SolverOptions();
-    joint_options.covariances = covariances;
+    joint_options.covariances = judging || tells_all();
+    joint_options.fit_tolerance = judging;
     out.joint = OptimizeJointly(mapper.graph(), plan, out.matches, T_plan_map, joint_options);
     if (out.joint.T_map_kf.empty()) return std::nullopt;  // unusable; a solution short of its last digit is not
     return out;
@@ -153,8 +155,8 @@ struct GraphEstimator::Impl {
 
   // Couples map and plan at the current estimate and solves everything jointly. Covariances cost half of the time and steer nothing:
   // they are left out until somebody asks.
-  void Optimize(bool covariances) {
-    std::optional<Solution> solution = Solved(covariances || tells_all());
+  void Optimize(bool judging) {
+    std::optional<Solution> solution = Solved(judging);
     if (!solution) return;
     joint = std::move(solution->joint);
     matches = std::move(solution->matches);

@@ -92,7 +92,7 @@ class Optimizer {
       result.em_rounds = round + 1;
       if (!Solve(*problem, result)) return result;
     }
-    if (options_.covariances && schedule_.consensus) {
+    if (options_.covariances && options_.fit_tolerance && schedule_.consensus) {
       FitTolerance();
       problem.reset();  // it holds the state
       problem.emplace(map_, plan_, frames_, matches_, fitted_, state_);

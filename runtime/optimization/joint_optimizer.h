@@ -33,6 +33,7 @@ struct JointOptions {
   double place_sigma_m = 1.0;          // ... and how well
   int em_rounds = 4;                   // of at least one; stops early when responsibilities settle
   int max_iterations = 30;             // per round
+  bool fit_tolerance = true;           // with covariances: one more solve, with the tolerance that the walls show (built_tolerance.h)
   bool covariances = true;             // off: WallEstimate::cov and cov_xy_yaw are conservative constants, and the call is faster
   CouplingOptions coupling;            // mixture prior
   [[nodiscard]] std::string Check() const;  // empty, or the field, its value and the rule

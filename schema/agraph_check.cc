@@ -95,6 +95,7 @@ class Checker {
       Reference("doorway", i, d.wall, walls, true);
       Reference("doorway", i, d.room_a, graph_.rooms.size(), true);
       Reference("doorway", i, d.room_b, graph_.rooms.size(), true);
+      if (d.leaves.size() > 2) Fault("doorway", i, "it has more than two leaves");
       for (const DoorLeaf& l : d.leaves) CheckLeaf(i, l);
     }
     for (size_t i = 0; i < graph_.windows.size(); ++i) {

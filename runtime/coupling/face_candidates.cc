@@ -17,14 +17,18 @@ constexpr double kMinExplained = 0.4;  // ... and is what most of the patch is o
 constexpr double kMinExplainedHeight = 0.25;
 constexpr double kLeastExplained = 0.01;
 
+// How much of the patch's height the face has. Walls of two storeys often lie in one plane, and a stair hall shows both.
+double HeightRatio(const Patch& patch, const Surface& face) {
+  const double height_m = std::min(patch.z_max, face.z_max_m) - std::max(patch.z_min, face.z_min_m);
+  return std::max(0.0, height_m) / std::max(patch.z_max - patch.z_min, 1e-3);
+}
+
 // Is what the patch is of the face for the most part, and no skirting or ledge on it?
 bool IsMostOf(const PlannedFace& face, const std::vector<PlannedFace>& faces, const Patch& patch) {
   // Rooms divide one side of a wall into several faces, and a patch may run along all of them.
   double explained = 0;
   for (const PlannedFace& f : faces) explained += f.side == face.side ? ExplainedRatio(patch, *f.surface) : 0;
-  const Surface& surface = *face.surface;
-  const double height_m = std::min(patch.z_max, surface.z_max_m) - std::max(patch.z_min, surface.z_min_m);
-  return explained >= kMinExplained && height_m >= kMinExplainedHeight * (patch.z_max - patch.z_min);
+  return explained >= kMinExplained && HeightRatio(patch, *face.surface) >= kMinExplainedHeight;
 }
 
 std::optional<FaceCandidate> Compare(const Patch& patch, const PlannedFace& face, const std::vector<PlannedFace>& faces,
@@ -63,8 +67,8 @@ std::optional<FaceCandidate> Compare(const Patch& patch, const PlannedFace& face
   if (off_plan && IsSeenThrough(patch, surface, openings, sight)) return std::nullopt;
   const double yaw_sigma = kMapSigma_m / std::max(patch.length(), 0.3);
   const Eigen::Matrix2d covariance = Eigen::Vector2d(kMapSigma_m * kMapSigma_m, yaw_sigma * yaw_sigma).asDiagonal();
-  c.cost_nats =
-      AssessMixture(residual, covariance, options).cost_nats - std::log(std::max(ExplainedRatio(patch, surface), kLeastExplained));
+  const double explained = ExplainedRatio(patch, surface) * HeightRatio(patch, surface);
+  c.cost_nats = AssessMixture(residual, covariance, options).cost_nats - std::log(std::max(explained, kLeastExplained));
   return c;
 }
 
@@ -84,7 +88,7 @@ std::vector<PlannedFace> PlannedFaces(const AGraph& plan, const std::vector<Wall
 }
 
 std::vector<FaceCandidate> CandidatesOf(const Patch& patch, const std::vector<PlannedFace>& faces, const SightLines& sight,
-                                    const std::vector<WallDeviation>& known, double max_offset_m, const CouplingOptions& options) {
+                                        const std::vector<WallDeviation>& known, double max_offset_m, const CouplingOptions& options) {
   std::vector<FaceCandidate> out;
   for (const PlannedFace& face : faces) {
     const size_t wall = face.surface->wall.index();

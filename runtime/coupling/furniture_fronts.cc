@@ -3,15 +3,20 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
+#include <vector>
 
 namespace plumb::runtime {
 namespace {
 
 // No wall is built thicker than planned by more; a planar laser sees the one face at one height, the other at another.
 constexpr double kMaxThicker_m = 0.04, kMaxPlanarThicker_m = 0.10;
-constexpr double kHigher_m = 0.10;  // of what reaches further up
-constexpr double kMuchLarger = 2;   // in area
+constexpr double kHigher_m = 0.10;     // of what reaches further up
+constexpr double kMuchLarger = 2;      // in area
+constexpr double kMinCommon_m = 0.3;   // that both faces were seen along, for their distance to be known
+constexpr size_t kMinWalls = 4;        // whose median tells what a common range bias adds ...
+constexpr double kMaxCommon_m = 0.08;  // ... up to two sigmas of one, for both faces
 
 // What was seen of one side of a wall.
 struct Side {
@@ -43,12 +48,14 @@ std::map<int, Side> Sides(const AGraph& plan, const std::vector<WallFrame>& fram
   return sides;
 }
 
-// By how much the wall between two patches is thicker than between the planned faces, in the middle of what both run along.
-double Thicker_m(const Side& a, const Side& b) {
+// By how much the wall between two patches is thicker than between the planned faces, in the middle of what both run along. None if that is
+// too little: led on beyond their ends, lines part.
+std::optional<double> Thicker_m(const Side& a, const Side& b) {
   const Eigen::Vector2d along = (a.face->end - a.face->start).normalized();
   const auto range = [&](const Patch& p) { return std::minmax({along.dot(p.start), along.dot(p.end)}); };
   const auto [a_from, a_to] = range(*a.largest);
   const auto [b_from, b_to] = range(*b.largest);
+  if (!(std::min(a_to, b_to) - std::max(a_from, b_from) >= kMinCommon_m)) return std::nullopt;
   const double middle = 0.5 * (std::max(a_from, b_from) + std::min(a_to, b_to));
   const auto at = [&](const Patch& p) -> Eigen::Vector2d {
     const double from = along.dot(p.start), to = along.dot(p.end);
@@ -63,6 +70,20 @@ const Side* LesserOf(const Side& a, const Side& b) {
   if (std::abs(a.z_max - b.z_max) > kHigher_m) return a.z_max < b.z_max ? &a : &b;
   if (a.area > kMuchLarger * b.area) return &b;
   return b.area > kMuchLarger * a.area ? &a : nullptr;
+}
+
+// What all walls are thicker by: a lidar whose ranges are off by half of it. Few walls do not tell.
+double CommonThicker_m(const std::map<int, Side>& sides) {
+  std::vector<double> thicker_m;
+  for (const auto& [key, side] : sides) {
+    const auto other = sides.find(key ^ 1);
+    if (key % 2 != 0 || other == sides.end()) continue;
+    if (const auto t = Thicker_m(side, other->second)) thicker_m.push_back(*t);
+  }
+  if (thicker_m.size() < kMinWalls) return 0;
+  const auto middle = thicker_m.begin() + static_cast<std::ptrdiff_t>(thicker_m.size() / 2);
+  std::nth_element(thicker_m.begin(), middle, thicker_m.end());
+  return std::clamp(*middle, -kMaxCommon_m, kMaxCommon_m);
 }
 
 }  // namespace
@@ -89,9 +110,12 @@ void DropPlanarFronts(const std::vector<Patch>& patches, AssignedFaces& assigned
 void DropLowFronts(const AGraph& plan, const std::vector<WallFrame>& frames, const std::vector<Patch>& patches,
                    std::vector<Match>& matches) {
   const std::map<int, Side> sides = Sides(plan, frames, patches, matches);
+  const double common_m = CommonThicker_m(sides);
   for (const auto& [key, side] : sides) {
     const auto other = sides.find(key ^ 1);
-    if (key % 2 != 0 || other == sides.end() || Thicker_m(side, other->second) <= kMaxThicker_m) continue;
+    if (key % 2 != 0 || other == sides.end()) continue;
+    const std::optional<double> thicker_m = Thicker_m(side, other->second);
+    if (!thicker_m || *thicker_m - common_m <= kMaxThicker_m) continue;
     const Side* lesser = LesserOf(side, other->second);
     if (!lesser) continue;
     const int front = lesser == &side ? key : other->first;

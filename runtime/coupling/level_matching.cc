@@ -118,11 +118,14 @@ class LevelMatcher {
   // Something to sit on or to put things on: more than reflections lies lower in the same room. That may be of a floor that goes on through
   // other rooms, and is matched to one of those.
   [[nodiscard]] bool IsFurniture(const Match& floor) const {
-    double count = 0;
+    const Profile& profile = profiles_[floor.room.index()];
+    const double low_m = floor.offset_m - kStep_m;
+    double below = profile.Below(low_m);
+    const double on = profile.Below(floor.offset_m + kStep_m) - below;
     for (const LevelPoints& p : points_[floor.map_surface]) {
-      if (p.room == floor.room.index() && std::abs(p.offset_m - floor.offset_m) <= kStep_m) count += p.count;
+      if (p.room == floor.room.index() && p.offset_m < low_m) below -= p.count;  // the low end of a ramp
     }
-    return profiles_[floor.room.index()].Below(floor.offset_m - kStep_m) >= kReflections * count;
+    return below >= kReflections * on;
   }
 
   const SGraph& map_;

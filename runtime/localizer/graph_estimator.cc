@@ -177,7 +177,9 @@ struct GraphEstimator::Impl {
     for (const WallEstimate& wall : joint.walls) {
       if (wall.p_deviated < 0.5) continue;
       for (size_t i = 0; i < matches.size(); ++i) {
-        if (on_other_shape[i] && WallOf(matches[i]) == wall.wall) other_shapes.insert({matches[i].map_surface, wall.wall});
+        if (!on_other_shape[i] || WallOf(matches[i]) != wall.wall) continue;
+        other_shapes.insert({matches[i].map_surface, wall.wall});
+        known[wall.wall.index()] = {};  // where it was looked for was the other shape's place
       }
     }
   }

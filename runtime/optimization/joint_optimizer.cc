@@ -129,6 +129,7 @@ class Optimizer {
     fitted_.thickness_sigma_m *= built.offset_ratio;
     fitted_.coupling.offset_tau0_m *= built.offset_ratio;
     fitted_.coupling.yaw_tau0_rad *= built.yaw_ratio;
+    Measure();
   }
 
   [[nodiscard]] std::vector<WallMeasurement> Measured(const JointOptions& options) const {
@@ -227,7 +228,7 @@ class Optimizer {
     for (const MeasuredElsewhere& place : places) e.place_sigma_m += place.probability * place.shift.x() * place.shift.x();
     e.place_sigma_m = std::sqrt(e.place_sigma_m);
     const WallBelief belief = BeliefOf(e.evidence, places, estimate, fitted_.coupling);
-    // What is a deviation does not depend on how well the rest was built.
+    // The prior of what is a deviation does not depend on how well the rest was built; the evidence does, by where that lays the plan.
     e.p_deviated = BeliefOf(e.evidence, places, estimate, options_.coupling).p_deviated;
     // Wider where the solve's covariance is that of one component alone.
     Eigen::Vector4d widen = Eigen::Vector4d::Ones();
@@ -270,15 +271,17 @@ class Optimizer {
     }
   }
 
-  // From where to where along its wall the match's patch reaches.
+  // From where to where along its wall the match's patch reaches, within the face: it may go on along the next wall.
   void AddSpan(const Match& m, std::map<WallId, std::pair<double, double>>& spans) const {
     const MapSurface& patch = map_.surfaces[m.map_surface];
     const WallId wall = plan_.surfaces[m.plan_surface.index()].wall;
     const WallFrame& frame = frames_[wall.index()];
     auto& [from, to] = spans.try_emplace(wall, 1e300, -1e300).first->second;
+    const Surface& face = plan_.surfaces[m.plan_surface.index()];
+    const auto along = [&](const Eigen::Vector2d& at) { return (at - frame.pivot.head<2>()).dot(Eigen::Vector2d(-frame.normal.y(), frame.normal.x())); };
+    const auto [face_from, face_to] = std::minmax({along(face.start), along(face.end)});
     for (const Eigen::Vector2d& end : {patch.start, patch.end}) {
-      const Eigen::Vector3d at = Place() * Eigen::Vector3d(end.x(), end.y(), 0) - frame.pivot;
-      const double u = at.y() * frame.normal.x() - at.x() * frame.normal.y();
+      const double u = std::clamp(along((Place() * Eigen::Vector3d(end.x(), end.y(), 0)).head<2>()), face_from, face_to);
       from = std::min(from, u);
       to = std::max(to, u);
     }

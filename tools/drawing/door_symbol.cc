@@ -90,7 +90,11 @@ class DoorSymbol {
     out.side = to_b ? 1 : -1;
     out.width_m = WidthOf(leaves, i);
     bool at_left = leaf.jamb == Jamb::kLeft;
-    if (leaf.jamb == Jamb::kUnknown) at_left = leaves.size() > 1 ? i == 0 : HangsLeft(out.side);
+    if (leaf.jamb == Jamb::kUnknown) {
+      const Jamb other = leaves.size() > 1 ? leaves[1 - i].jamb : Jamb::kUnknown;
+      const bool first = other == Jamb::kUnknown ? i == 0 : other == Jamb::kRight;
+      at_left = leaves.size() > 1 ? first : HangsLeft(out.side);
+    }
     out.s_m = (at_left ? 0.5 : -0.5) * d_.width_m;
     out.inwards = at_left ? -1 : 1;
     return out;

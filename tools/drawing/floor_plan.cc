@@ -170,7 +170,7 @@ std::string DrawFloorPlan(const AGraph& graph, StoreyId storey, const Sheet& she
     if (w.storey == storey) out += DrawWindow(graph, w, sheet, cut_m);
   }
   for (const Doorway& d : graph.doorways) {
-    if (d.storey == storey) out += d.height_m > options.section_height_m ? DrawDoor(graph, d, sheet) : DrawDoorBelow(graph, d, sheet);
+    if (d.storey == storey) out += d.position.z() + d.height_m > cut_m ? DrawDoor(graph, d, sheet) : DrawDoorBelow(graph, d, sheet);
   }
   return out;
 }

@@ -3,7 +3,10 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cerrno>
 #include <csignal>
+#include <cstdio>
+#include <cstring>
 #include <exception>
 #include <new>
 #include <string>
@@ -92,9 +95,11 @@ CLI::App* AddSubcommand(CLI::App& app, Session& session, const std::string& name
   CLI::App* sub = app.add_subcommand(name, description);
   sub->option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast)->always_capture_default();
   sub->footer("Examples:\n" + examples + "\nExit status: 0 fine, 1 findings, 2 bad input or usage, 3 internal error.");
-  sub->add_option_function<std::string>("--config", [](const std::string&) {}, "TOML file with options under the names of these flags")
+  sub->add_option_function<std::string>(
+         "--config", [](const std::string&) {}, "TOML file with options under the names of these flags")
       ->type_name("FILE");
-  sub->add_flag_callback("--print-config", [sub] { throw PrintConfigRequest{sub}; }, "print the options in force as TOML, and stop");
+  sub->add_flag_callback(
+      "--print-config", [sub] { throw PrintConfigRequest{sub}; }, "print the options in force as TOML, and stop");
   sub->add_flag_function(
       "-q,--quiet", [&session](int64_t count) { session.console.set_quiet(count > 0); }, "say nothing but results and errors");
   return sub;
@@ -117,7 +122,10 @@ int main(int argc, char** argv) {
     app.require_subcommand(1);
     app.footer("Run `plumb SUBCOMMAND --help` for options and examples.");
     plumb::tools::AddSubcommands(app, session);
-    return plumb::tools::Parse(app, session, {argv + 1, argv + argc});
+    const int status = plumb::tools::Parse(app, session, {argv + 1, argv + argc});
+    if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return status;
+    session.console.Error(fmt::format("cannot write to standard output: {}", std::strerror(errno)));
+    return static_cast<int>(plumb::tools::Status::kBadInput);
   } catch (const std::bad_alloc&) {
     session.console.Error("out of memory");
   } catch (const std::exception& e) {

@@ -61,9 +61,10 @@ std::vector<FramedLeaf> DoorReader::Stated(const IfcInstance& door, const IfcIns
   if (by_type && type.type == IfcType::kIfcDoorType)
     out = read(type, attribute::kDoorTypeOperation, attribute::kDoorTypeUserDefinedOperation);
   if (by_type && type.type == IfcType::kIfcDoorStyle) out = read(type, attribute::kDoorStyleOperation, 0);
-  if (type) AddPanelWidths(type, door_width_m, out);
-  if (!by_type || out.empty()) return out;
+  if (!type || out.empty()) return out;
   const Matrix3d R_door_type = FrameOfType(door, type);
+  AddPanelWidths(type, door_width_m, !by_type && R_door_type(0, 0) < 0, out);
+  if (!by_type) return out;
   for (FramedLeaf& leaf : out) {
     leaf.at_x = static_cast<int>(std::lround((R_door_type * Vector3d(leaf.at_x, 0, 0)).normalized().x()));
     leaf.opens_to_y = static_cast<int>(std::lround((R_door_type * Vector3d(0, leaf.opens_to_y, 0)).normalized().y()));
@@ -73,10 +74,11 @@ std::vector<FramedLeaf> DoorReader::Stated(const IfcInstance& door, const IfcIns
 
 // Two leaves may be unequal: each of the type's IfcDoorPanelProperties states the share of one. They need not add up to one, as some
 // programs count the frame in.
-void DoorReader::AddPanelWidths(const IfcInstance& type, double door_width_m, std::vector<FramedLeaf>& leaves) const {
+void DoorReader::AddPanelWidths(const IfcInstance& type, double door_width_m, bool mirrored, std::vector<FramedLeaf>& leaves) const {
   if (leaves.size() != 2 || !(door_width_m > 0)) return;
   double left = 0, right = 0;
   for (const StepValue reference : type[attribute::kTypePropertySets].Items()) {
+    if (!model_.Spend(1, type.index)) return;
     const IfcInstance panel = model_.Follow(reference);
     if (!panel || panel.type != IfcType::kIfcDoorPanelProperties) continue;
     const std::string_view position = panel[attribute::kPanelPosition].Enumeration();
@@ -84,6 +86,7 @@ void DoorReader::AddPanelWidths(const IfcInstance& type, double door_width_m, st
     if (position == "RIGHT") right = model_.Number(panel, attribute::kPanelWidth);
   }
   if (!(left > 0 && right > 0 && std::isfinite(left + right))) return;
+  if (mirrored) std::swap(left, right);
   for (FramedLeaf& leaf : leaves) leaf.width_m = (leaf.at_x < 0 ? left : right) / (left + right) * door_width_m;
 }
 
@@ -95,6 +98,7 @@ std::vector<IfcInstance> DoorReader::Items(const IfcInstance& door) const {
     const IfcInstance representation = model_.Follow(reference);
     if (!representation || representation.type != IfcType::kIfcShapeRepresentation) continue;
     for (const StepValue item : representation[attribute::kRepresentationItems].Items()) {
+      if (!model_.Spend(1, door.index)) return {};
       if (const IfcInstance found = model_.Follow(item)) out.push_back(found);
     }
   }
@@ -107,11 +111,15 @@ Affine3d DoorReader::Mapping(const IfcInstance& item, const IfcInstance& map) co
 
 Matrix3d DoorReader::FrameOfType(const IfcInstance& door, const IfcInstance& type) const {
   std::vector<uint32_t> maps;
-  for (const StepValue reference : type[attribute::kTypeRepresentationMaps].Items()) maps.push_back(model_.Resolve(reference));
+  for (const StepValue reference : type[attribute::kTypeRepresentationMaps].Items()) {
+    if (!model_.Spend(1, type.index)) return Matrix3d::Identity();
+    maps.push_back(model_.Resolve(reference));
+  }
+  std::sort(maps.begin(), maps.end());
   for (const IfcInstance& item : Items(door)) {
     if (item.type != IfcType::kIfcMappedItem) continue;
     const IfcInstance map = model_.Follow(item[attribute::kMappingSource]);
-    if (map && std::find(maps.begin(), maps.end(), map.index) != maps.end()) return Mapping(item, map).linear();
+    if (map && std::binary_search(maps.begin(), maps.end(), map.index)) return Mapping(item, map).linear();
   }
   return Matrix3d::Identity();
 }
@@ -123,6 +131,7 @@ void DoorReader::AddSwings(const IfcInstance& item, const Affine3d& T_door_item,
   };
   const auto add_arcs = [&] {
     for (const Arc& arc : curves_.Read(item).arcs) {
+      if (swings.size() > kMaxSwings || !model_.Spend(1, item.index)) return;
       if (std::abs(arc.sweep_rad) < kMinSwing_rad || std::abs(arc.sweep_rad) > kMaxSwing_rad) continue;
       const auto at = [&](double angle_rad) {
         const Vector2d p = arc.center + arc.radius_m * Vector2d(std::cos(angle_rad), std::sin(angle_rad));
@@ -137,7 +146,10 @@ void DoorReader::AddSwings(const IfcInstance& item, const Affine3d& T_door_item,
       const IfcInstance map = model_.Follow(item[attribute::kMappingSource]);
       if (!map || map.type != IfcType::kIfcRepresentationMap) return;
       const Affine3d T_door_map = T_door_item * Mapping(item, map);
-      for (const Swing& s : InMap(map, depth)) swings.push_back({T_door_map * s.hinge, T_door_map * s.start, T_door_map * s.end});
+      for (const Swing& s : InMap(map, depth)) {
+        if (swings.size() > kMaxSwings || !model_.Spend(1, item.index)) return;
+        swings.push_back({T_door_map * s.hinge, T_door_map * s.start, T_door_map * s.end});
+      }
       return;
     }
     case IfcType::kIfcGeometricSet:

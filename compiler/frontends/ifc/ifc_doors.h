@@ -33,7 +33,8 @@ class DoorReader {
 
   // In the door's frame.
   [[nodiscard]] std::vector<FramedLeaf> Stated(const IfcInstance& door, const IfcInstance& type, double door_width_m) const;
-  void AddPanelWidths(const IfcInstance& type, double door_width_m, std::vector<FramedLeaf>& leaves) const;
+  // `mirrored`: the type's left is the leaves' right.
+  void AddPanelWidths(const IfcInstance& type, double door_width_m, bool mirrored, std::vector<FramedLeaf>& leaves) const;
   [[nodiscard]] Eigen::Matrix3d FrameOfType(const IfcInstance& door, const IfcInstance& type) const;
   [[nodiscard]] std::vector<FramedLeaf> Drawn(const IfcInstance& door, double door_width_m) const;
   void AddSwings(const IfcInstance& item, const Eigen::Affine3d& T_door_item, int depth, std::vector<Swing>& swings) const;

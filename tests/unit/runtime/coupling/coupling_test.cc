@@ -351,6 +351,24 @@ TEST(MatchSurfaces, AWallThatRoomsDivideIntoManyFacesIsOneWhenItIsOff) {
   EXPECT_EQ(house.surfaces[found.index()].wall, wall);
 }
 
+TEST(MatchSurfaces, AWallIsThatOfTheStoreySeenNotTheOneAboveInTheSamePlane) {
+  AGraph house = test::MakeHouse();
+  house.walls.push_back(house.walls[house.surfaces[9].wall.index()]);
+  Surface above = house.surfaces[9];  // the storey above, seen through a stair hall, with no wall between its rooms
+  above.wall = WallId(house.walls.size() - 1);
+  above.z_min_m = above.z_max_m;
+  above.z_max_m += 0.7;
+  const Eigen::Vector2d half = 0.5 * (house.surfaces[9].start + house.surfaces[9].end);
+  house.surfaces.push_back(house.surfaces[9]);
+  house.surfaces[9].end = house.surfaces.back().start = half;  // two rooms below
+  house.surfaces.push_back(above);
+  Scene scene;
+  const uint32_t patch = scene.Add(above.start, above.end, 0.1, above.z_max_m - 0.1);
+  const SurfaceId found = scene.Of(house, patch);
+  ASSERT_TRUE(found.valid());
+  EXPECT_EQ(house.surfaces[found.index()].wall, house.surfaces[9].wall);
+}
+
 TEST(MatchSurfaces, APatchAlongTwoWallsIsOfBoth) {
   AGraph house = test::MakeHouse();
   house.walls.push_back(

@@ -21,6 +21,7 @@ namespace plumb::runtime {
 namespace {
 
 constexpr double kSettled = 0.01;      // responsibilities that change less end the EM rounds
+constexpr double kSameSide = 0.9;      // cosine between normals of faces of one side of a wall
 constexpr double kNoThickness = 1e-3;  // of its prior: as good as none
 
 std::string CheckInput(const SGraph& map, const AGraph& plan, const std::vector<WallFrame>& frames, const std::vector<Match>& matches,
@@ -175,7 +176,8 @@ class Optimizer {
     result.covariances_exact = covariances.has_value();
     if (covariances) {
       constexpr int kPick[3] = {0, 1, 3};
-      for (int i = 0; i < 3; ++i) for (int j = 0; j < 3; ++j) result.cov_xy_yaw(i, j) = covariances->place(kPick[i], kPick[j]);
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) result.cov_xy_yaw(i, j) = covariances->place(kPick[i], kPick[j]);
     } else {
       result.cov_xy_yaw = Eigen::Vector3d(1, 1, 0.04).asDiagonal();
       if (options_.covariances) result.message += " Rank deficient: covariances are the priors' own, the widest they can be.";
@@ -249,16 +251,40 @@ class Optimizer {
     return all > 0 ? counts / all : 0;
   }
 
+  // Rooms divide one side of a wall into several faces: how much of a match's patch lies on each. The shares add up to one.
+  [[nodiscard]] std::vector<std::pair<SurfaceId, double>> SharesOfFaces(const Match& m) const {
+    const Surface& matched = plan_.surfaces[m.plan_surface.index()];
+    const MapSurface& patch = map_.surfaces[m.map_surface];
+    const Eigen::Vector2d along = (matched.end - matched.start).normalized();
+    const auto u = [&](const Eigen::Vector2d& at) { return along.dot((Place() * Eigen::Vector3d(at.x(), at.y(), 0)).head<2>()); };
+    const auto [from, to] = std::minmax({u(patch.start), u(patch.end)});
+    std::vector<std::pair<SurfaceId, double>> shares;
+    double total_m = 0;
+    for (size_t i = 0; i < plan_.surfaces.size() && !matched.arc; ++i) {
+      const Surface& face = plan_.surfaces[i];
+      if (face.wall != matched.wall || face.storey != matched.storey || face.arc || face.normal.dot(matched.normal) < kSameSide) continue;
+      const double common_m = std::min(to, along.dot(face.end)) - std::max(from, along.dot(face.start));
+      if (common_m <= 0) continue;
+      shares.emplace_back(SurfaceId(i), common_m);
+      total_m += common_m;
+    }
+    if (shares.empty()) return {{m.plan_surface, 1.0}};
+    for (auto& [face, share] : shares) share /= total_m;
+    return shares;
+  }
+
   void CountSeen(std::vector<WallEstimate>& walls) const {
     std::map<SurfaceId, SeenSurface> seen;
     std::map<WallId, std::pair<double, double>> spans;
     for (const Match& m : matches_) {
       if (!m.plan_surface.valid()) continue;
-      SeenSurface& s = seen[m.plan_surface];
-      s.surface = m.plan_surface;
-      const double share = m.mistaken.empty() ? 1.0 : ShareThatCounts(m);
-      s.num_points += share * map_.surfaces[m.map_surface].num_points;
-      s.observed_m2 += share * map_.surfaces[m.map_surface].area_m2;
+      const double counts = m.mistaken.empty() ? 1.0 : ShareThatCounts(m);
+      for (const auto& [face, share] : SharesOfFaces(m)) {
+        SeenSurface& s = seen[face];
+        s.surface = face;
+        s.num_points += counts * share * map_.surfaces[m.map_surface].num_points;
+        s.observed_m2 += counts * share * map_.surfaces[m.map_surface].area_m2;
+      }
       AddSpan(m, spans);
     }
     for (const auto& [id, s] : seen) {
@@ -278,7 +304,9 @@ class Optimizer {
     const WallFrame& frame = frames_[wall.index()];
     auto& [from, to] = spans.try_emplace(wall, 1e300, -1e300).first->second;
     const Surface& face = plan_.surfaces[m.plan_surface.index()];
-    const auto along = [&](const Eigen::Vector2d& at) { return (at - frame.pivot.head<2>()).dot(Eigen::Vector2d(-frame.normal.y(), frame.normal.x())); };
+    const auto along = [&](const Eigen::Vector2d& at) {
+      return (at - frame.pivot.head<2>()).dot(Eigen::Vector2d(-frame.normal.y(), frame.normal.x()));
+    };
     const auto [face_from, face_to] = std::minmax({along(face.start), along(face.end)});
     for (const Eigen::Vector2d& end : {patch.start, patch.end}) {
       const double u = std::clamp(along((Place() * Eigen::Vector3d(end.x(), end.y(), 0)).head<2>()), face_from, face_to);
@@ -315,10 +343,16 @@ class Optimizer {
 }  // namespace
 
 std::string JointOptions::Check() const {
-  const std::pair<const char*, double> positive[] = {{"point_sigma_m", point_sigma_m}, {"observation_floor_m", observation_floor_m},
-      {"observation_floor_rad", observation_floor_rad}, {"observation_loss", observation_loss},
-      {"gravity_sigma_rad", gravity_sigma_rad}, {"bias_sigma_m", bias_sigma_m}, {"thickness_sigma_m", thickness_sigma_m},
-      {"tilt_sigma_rad", tilt_sigma_rad}, {"level_sigma_m", level_sigma_m}, {"place_sigma_m", place_sigma_m}};
+  const std::pair<const char*, double> positive[] = {{"point_sigma_m", point_sigma_m},
+                                                     {"observation_floor_m", observation_floor_m},
+                                                     {"observation_floor_rad", observation_floor_rad},
+                                                     {"observation_loss", observation_loss},
+                                                     {"gravity_sigma_rad", gravity_sigma_rad},
+                                                     {"bias_sigma_m", bias_sigma_m},
+                                                     {"thickness_sigma_m", thickness_sigma_m},
+                                                     {"tilt_sigma_rad", tilt_sigma_rad},
+                                                     {"level_sigma_m", level_sigma_m},
+                                                     {"place_sigma_m", place_sigma_m}};
   for (const auto& [name, value] : positive) {
     if (!(value > 0)) return fmt::format("JointOptions.{} = {}; must be > 0", name, value);
   }

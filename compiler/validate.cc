@@ -69,9 +69,9 @@ void Judge(const AGraph& graph, bool judge_places, size_t doubts, Report& out) {
     out.answer = fmt::format("no robot can tell where it is in this: each room has a twin that looks alike ({})", Contents(graph));
     return;
   }
-  out.answer = fmt::format("a robot can localize in this ({})", Contents(graph));
+  out.answer = fmt::format("a robot can localize in this{} ({})", graph.rooms.empty() ? " by its walls alone" : "", Contents(graph));
   if (alike > 0)
-    out.answer += fmt::format(", but not in {} of the rooms, which have twins that look alike", alike);
+    out.answer += fmt::format(", but within {} the plan looks the same from another place", Counted(alike, "room"));
   else if (doubts > 0)
     out.answer += ", but see the warnings";
 }

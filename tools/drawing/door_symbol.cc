@@ -25,8 +25,20 @@ size_t DoorwaysOf(const AGraph& g, RoomId room) {
       std::count_if(g.doorways.begin(), g.doorways.end(), [room](const Doorway& d) { return d.room_a == room || d.room_b == room; }));
 }
 
+// How far a room reaches from the doorway; outside, as far as one likes.
+double DepthOf(const AGraph& g, RoomId room, const Doorway& d, const Vector2d& way) {
+  if (!room.valid()) return std::numeric_limits<double>::max();
+  double depth_m = 0;
+  for (const Vector2d& corner : g.rooms[room.index()].polygon) depth_m = std::max(depth_m, way.dot(corner - d.position.head<2>()));
+  return depth_m;
+}
+
 // The room into which a leaf opens where the plan does not say.
 bool OpensTowardsB(const AGraph& g, const Doorway& d) {
+  const double leaf_m = d.width_m > kWidestLeaf_m ? 0.5 * d.width_m : d.width_m;
+  const Vector2d through = Direction(d.yaw_rad);
+  const bool fits_a = DepthOf(g, d.room_a, d, -through) > leaf_m, fits_b = DepthOf(g, d.room_b, d, through) > leaf_m;
+  if (fits_a != fits_b) return fits_b;  // closets are shallow
   if (!d.room_b.valid()) return false;
   if (!d.room_a.valid()) return true;
   const size_t ways_a = DoorwaysOf(g, d.room_a), ways_b = DoorwaysOf(g, d.room_b);
@@ -50,7 +62,7 @@ class DoorSymbol {
     const std::string opening = Path("opening", sheet_.Closed(ring));
     const std::string edges = sheet_.Line(ring[0], ring[1]) + sheet_.Line(ring[2], ring[3]);
     if (!d_.has_leaf) return opening + Path("lintel", edges);
-    return opening + DrawLeaves() + Path("sill", edges);
+    return opening + (d_.leaves.empty() ? Assumed() : DrawLeaves(d_.leaves)) + Path("sill", edges);
   }
 
  private:
@@ -72,13 +84,29 @@ class DoorSymbol {
   }
   [[nodiscard]] double Face(double side) const { return 0.5 * thickness_m_ * side; }
 
-  [[nodiscard]] std::string DrawLeaves() const {
-    std::vector<DoorLeaf> leaves = d_.leaves;
-    if (leaves.empty()) leaves.resize(d_.width_m > kWidestLeaf_m ? 2 : 1);
+  // One leaf or two that swing, as is common. What is too wide for two rolls or slides, and is drawn shut.
+  [[nodiscard]] std::string Assumed() const {
+    if (d_.width_m > 2 * kWidestLeaf_m) return Group(DrawLeaves({{LeafOperation::kFixed, Jamb::kUnknown, DoorwaySide::kUnknown, 0}}));
+    return DrawLeaves(std::vector<DoorLeaf>(d_.width_m > kWidestLeaf_m ? 2 : 1));
+  }
+
+  static std::string Group(const std::string& drawn) { return "<g class=\"assumed\">\n" + drawn + "</g>\n"; }
+
+  // Whether the plan leaves open where it swings.
+  static bool IsAssumed(const std::vector<DoorLeaf>& leaves, const DoorLeaf& leaf) {
+    if (leaf.operation == LeafOperation::kUnknown) return true;
+    if (leaf.operation != LeafOperation::kSwing && leaf.operation != LeafOperation::kFolding) return false;
+    return leaf.opens_to == DoorwaySide::kUnknown || (leaf.jamb == Jamb::kUnknown && leaves.size() == 1);
+  }
+
+  [[nodiscard]] std::string DrawLeaves(const std::vector<DoorLeaf>& leaves) const {
     const auto slides_past = [](const DoorLeaf& l) { return l.operation == LeafOperation::kSliding && l.jamb == Jamb::kUnknown; };
     if (leaves.size() > 1 && std::all_of(leaves.begin(), leaves.end(), slides_past)) return DrawSlidingPast();
     std::string out;
-    for (size_t i = 0; i < leaves.size(); ++i) out += DrawPanel(PanelOf(leaves, i));
+    for (size_t i = 0; i < leaves.size(); ++i) {
+      const std::string panel = DrawPanel(PanelOf(leaves, i));
+      out += IsAssumed(leaves, leaves[i]) ? Group(panel) : panel;
+    }
     return out;
   }
 

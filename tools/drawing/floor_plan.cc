@@ -104,6 +104,7 @@ std::string FloorPlanStyle() {
 .plan .glass{stroke:var(--glass-line);stroke-width:2.4;fill:none}
 .plan .leaf{stroke:var(--ink);stroke-width:3.2;fill:none}
 .plan .swing{stroke:var(--soft);stroke-width:1.2;fill:none}
+.plan .assumed{stroke-dasharray:10 5;opacity:.6}
 .plan .sill{stroke:var(--soft);stroke-width:1;fill:none}
 .plan .lintel{stroke:var(--soft);stroke-width:1.2;stroke-dasharray:8 5;fill:none}
 .plan text{fill:var(--ink);text-anchor:middle}

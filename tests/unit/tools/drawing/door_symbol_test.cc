@@ -85,6 +85,13 @@ TEST_F(DoorSymbolTest, WhatIsUnknownIsDrawnAsIsCommon) {
   EXPECT_EQ(Count(Draw({{}, {}}), "class=\"leaf\""), 2u);  // narrow, but the plan says two
 }
 
+TEST_F(DoorSymbolTest, WhatIsUnknownIsDrawnApart) {
+  EXPECT_EQ(Count(Draw({}), "class=\"assumed\""), 1u);
+  EXPECT_EQ(Count(Draw({{LeafOperation::kSwing, Jamb::kLeft}}), "class=\"assumed\""), 1u);
+  EXPECT_EQ(Count(Draw({{LeafOperation::kSwing, Jamb::kLeft, DoorwaySide::kRoomB}}), "class=\"assumed\""), 0u);
+  EXPECT_EQ(Count(Draw({{LeafOperation::kSliding, Jamb::kLeft}}), "class=\"assumed\""), 0u);
+}
+
 TEST_F(DoorSymbolTest, UnequalLeavesFillTheDoorInTheirRatio) {
   const double w = door().width_m, face = 0.5 * thickness_m_;
   const std::string svg = Draw(

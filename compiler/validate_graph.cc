@@ -118,7 +118,10 @@ class Validator {
         Emit(DiagnosticKind::kRoomUpsideDown, r.guid,
              fmt::format("{} has its floor at {:.3f} m and its ceiling at {:.3f} m", NameOf(i), r.floor_z_m, r.ceiling_z_m));
       }
-      if (!entered[i]) Emit(DiagnosticKind::kRoomWithoutDoorway, r.guid, fmt::format("no doorway leads into {}", NameOf(i)));
+      if (!entered[i]) {
+        Emit(DiagnosticKind::kRoomWithoutDoorway, r.guid,
+             fmt::format("no doorway leads into {} around ({:.2f}, {:.2f})", NameOf(i), r.center.x(), r.center.y()));
+      }
       for (uint32_t j : RoomsIn(BoundingBox(rings_[i]))) {
         if (j < i) CheckApart(j, i);
       }

@@ -81,8 +81,7 @@ std::vector<PlannedFace> PlannedFaces(const AGraph& plan, const std::vector<Wall
     const Surface& surface = plan.surfaces[i];
     if (!surface.wall.valid() || !IsFace(frames[surface.wall.index()], surface)) continue;
     const WallFrame& frame = frames[surface.wall.index()];
-    const int side = static_cast<int>(2 * surface.wall.value) + (frame.normal.dot(surface.normal) > 0 ? 1 : 0);
-    faces.push_back({SurfaceId(i), &surface, &frame, &openings[surface.wall.index()], side});
+    faces.push_back({SurfaceId(i), &surface, &frame, &openings[surface.wall.index()], SideOf(frame, surface)});
   }
   return faces;
 }

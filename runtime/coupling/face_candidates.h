@@ -20,7 +20,7 @@ struct PlannedFace {
   const Surface* surface;
   const WallFrame* frame;
   const std::vector<WallOpening>* openings;
-  int side;  // 2 * wall id + (1 if it faces along the wall's reference normal): patches of one side lie on one line
+  int side;  // SideOf(): patches of one side lie on one line
 };
 
 struct FaceCandidate {

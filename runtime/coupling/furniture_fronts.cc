@@ -25,10 +25,6 @@ struct Side {
   double area = 0, z_max = -1e300;
 };
 
-int SideOf(const std::vector<WallFrame>& frames, const Surface& face) {
-  return static_cast<int>(2 * face.wall.value) + (frames[face.wall.index()].normal.dot(face.normal) > 0 ? 1 : 0);
-}
-
 std::map<int, Side> Sides(const AGraph& plan, const std::vector<WallFrame>& frames, const std::vector<Patch>& patches,
                           const std::vector<Match>& matches) {
   std::map<int, Side> sides;
@@ -37,7 +33,7 @@ std::map<int, Side> Sides(const AGraph& plan, const std::vector<WallFrame>& fram
     const auto patch = std::lower_bound(patches.begin(), patches.end(), m.map_surface,
                                         [](const Patch& p, uint32_t map_surface) { return p.map_surface < map_surface; });
     const Surface& face = plan.surfaces[m.plan_surface.index()];
-    Side& side = sides[SideOf(frames, face)];
+    Side& side = sides[SideOf(frames[face.wall.index()], face)];
     if (!side.largest || patch->area > side.largest->area) {
       side.largest = &*patch;
       side.face = &face;
@@ -119,8 +115,11 @@ void DropLowFronts(const AGraph& plan, const std::vector<WallFrame>& frames, con
     const Side* lesser = LesserOf(side, other->second);
     if (!lesser) continue;
     const int front = lesser == &side ? key : other->first;
-    std::erase_if(matches,
-                  [&](const Match& m) { return m.plan_surface.valid() && SideOf(frames, plan.surfaces[m.plan_surface.index()]) == front; });
+    std::erase_if(matches, [&](const Match& m) {
+      if (!m.plan_surface.valid()) return false;
+      const Surface& face = plan.surfaces[m.plan_surface.index()];
+      return SideOf(frames[face.wall.index()], face) == front;
+    });
   }
 }
 

@@ -31,6 +31,10 @@ bool IsFace(const WallFrame& frame, const Surface& surface) {
   return frame.valid() && !surface.arc && std::abs(frame.normal.dot(surface.normal)) > kMinParallel;
 }
 
+int SideOf(const WallFrame& frame, const Surface& face) {
+  return static_cast<int>(2 * face.wall.value) + (frame.normal.dot(face.normal) > 0 ? 1 : 0);
+}
+
 Face MakeFace(const WallFrame& frame, const Surface& surface) {
   return {frame.pivot, frame.normal, surface.normal, MidpointAtHalfHeight(surface)};
 }

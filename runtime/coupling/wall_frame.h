@@ -38,6 +38,8 @@ struct Face {
 // True for straight surfaces parallel to the wall's reference: the faces that the wall's offset moves along their normal. Ends of walls,
 // reveals and curved surfaces are not.
 [[nodiscard]] bool IsFace(const WallFrame& frame, const Surface& surface);
+// The side of its wall that a face is of, different for all walls: 2 * wall id, and 1 more if it faces along the wall's reference normal.
+[[nodiscard]] int SideOf(const WallFrame& frame, const Surface& face);
 [[nodiscard]] Face MakeFace(const WallFrame& frame, const Surface& surface);
 
 // The built plane n . x + d = 0 of a face whose wall moved by `wall` (offset, yaw, tilt, thickness). T: double or an autodiff scalar.

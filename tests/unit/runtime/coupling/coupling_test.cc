@@ -5,62 +5,15 @@
 #include <algorithm>
 #include <numbers>
 
-#include "runtime/coupling/level_matching.h"
 #include "runtime/coupling/wall_frame.h"
-#include "schema/polygon.h"
 #include "tests/support/house.h"
 #include "tests/support/synthetic_sgraph.h"
+#include "tests/unit/runtime/coupling/scene.h"
 
 namespace plumb::runtime {
 namespace {
 
 constexpr double kDeg = std::numbers::pi / 180;
-
-// A map in plan coordinates: one keyframe, patches added by hand.
-struct Scene {
-  SGraph map;
-  Scene() { map.keyframes.emplace_back(); }
-  uint32_t Add(const Eigen::Vector2d& start, const Eigen::Vector2d& end, double z_min_m = 0.2, double z_max_m = 2.0) {
-    MapSurface s;
-    s.id = static_cast<uint32_t>(map.surfaces.size());
-    const Eigen::Vector2d along = (end - start).normalized();
-    s.plane.n = {-along.y(), along.x(), 0};
-    s.plane.d = -s.plane.n.head<2>().dot(start);
-    s.start = start;
-    s.end = end;
-    s.z_min_m = z_min_m;
-    s.z_max_m = z_max_m;
-    s.area_m2 = (end - start).norm() * (z_max_m - z_min_m);
-    test::FillCells(s);
-    Observation o;  // centred on the patch
-    for (double z_m : {z_min_m, z_max_m}) {
-      for (const Eigen::Vector2d& at : {start, end}) o.stats.Add({at.x(), at.y(), z_m});
-    }
-    s.observations.push_back(o);
-    map.surfaces.push_back(s);
-    return s.id;
-  }
-  // Sees points on the vertical rectangle over [start, end] from a keyframe at `from`, plan frame.
-  void See(const Eigen::Vector3d& from, const Eigen::Vector2d& start, const Eigen::Vector2d& end, double z_min_m, double z_max_m) {
-    Keyframe keyframe;
-    keyframe.id = static_cast<uint32_t>(map.keyframes.size());
-    keyframe.T_map_kf.translation() = from;
-    for (double u = 0.02; u < 1; u += 0.05) {
-      for (double z_m = z_min_m + 0.03; z_m < z_max_m; z_m += 0.1) {
-        const Eigen::Vector2d at = start + u * (end - start);
-        keyframe.points.push_back((Eigen::Vector3d(at.x(), at.y(), z_m) - from).cast<float>());
-      }
-    }
-    map.keyframes.push_back(keyframe);
-  }
-  // The plan surface that a map surface went to; none if unmatched.
-  SurfaceId Of(const AGraph& plan, uint32_t map_surface, const std::vector<WallDeviation>& known = {}) const {
-    for (const Match& m : MatchSurfaces(map, plan, Eigen::Isometry3d::Identity(), known)) {
-      if (m.map_surface == map_surface) return m.plan_surface;
-    }
-    return {};
-  }
-};
 
 // House surfaces: A 0..3, B 4..7, C 8..11 in the order south, east, north, west.
 TEST(MatchSurfaces, FindsEverySurfaceOfADrive) {
@@ -115,24 +68,6 @@ TEST(MatchSurfaces, NeverMatchesTheOtherFaceOfAWall) {
   EXPECT_EQ(scene.Of(house, in_a), SurfaceId(1));
 }
 
-// On a planar laser's line, a row of cupboards is as long and as straight as the wall behind it.
-TEST(MatchSurfaces, TakesNoFurnitureFrontOfAPlanarScanForAWallSeenFromBehind) {
-  const AGraph house = test::MakeHouse();
-  Scene scene;
-  scene.map.planar = true;
-  const uint32_t front = scene.Add({4.79, 0.5}, {4.79, 3.0});  // 15 cm before A's east wall
-  EXPECT_EQ(scene.Of(house, front), SurfaceId(1));             // nothing says that the wall is not there
-  const uint32_t other_face = scene.Add({5.06, 5.0}, {5.06, 1.0});
-  EXPECT_FALSE(scene.Of(house, front).valid());
-  EXPECT_EQ(scene.Of(house, other_face), SurfaceId(11));
-
-  Scene moved;  // both faces alike: the wall stands elsewhere
-  moved.map.planar = true;
-  const uint32_t in_a = moved.Add({4.79, 0.5}, {4.79, 3.0}), in_c = moved.Add({4.91, 5.0}, {4.91, 1.0});
-  EXPECT_EQ(moved.Of(house, in_a), SurfaceId(1));
-  EXPECT_EQ(moved.Of(house, in_c), SurfaceId(11));
-}
-
 TEST(MatchSurfaces, RespectsGatesOfOverlapHeightAndDistance) {
   const AGraph house = test::MakeHouse();
   Scene scene;
@@ -169,25 +104,6 @@ TEST(MatchSurfaces, WallBehindWinsEvenIfTheCupboardStandsOnThePlannedLine) {
   const uint32_t wall = scene.Add({9.3, 0.3}, {9.3, 2.5}, 0.2, 2.5), front = scene.Add({9, 2.5}, {9, 5.5}, 0.2, 1.8);
   EXPECT_EQ(scene.Of(house, wall), SurfaceId(9));
   EXPECT_FALSE(scene.Of(house, front).valid());
-}
-
-// Units along the other side of a wall whose face is seen would make it 0.3 m thick; so would one seen higher up than the wall's own piece.
-TEST(MatchSurfaces, AFrontThatMakesAWallTooThickIsFurniture) {
-  const AGraph house = test::MakeHouse();
-  Scene scene;
-  const uint32_t in_a = scene.Add({4.94, 0.5}, {4.94, 3.0}, 0.1, 2.2), front = scene.Add({5.26, 5.0}, {5.26, 1.0}, 0.1, 1.0);
-  EXPECT_EQ(scene.Of(house, in_a), SurfaceId(1));
-  EXPECT_FALSE(scene.Of(house, front).valid());
-
-  Scene moved;  // the wall stands 0.2 m further in A, and what is seen in C reaches as high as it does
-  const uint32_t far_in_a = moved.Add({4.74, 0.5}, {4.74, 3.0}, 0.1, 2.2), in_c = moved.Add({4.86, 5.0}, {4.86, 1.0}, 0.1, 2.2);
-  EXPECT_EQ(moved.Of(house, far_in_a), SurfaceId(1));
-  EXPECT_EQ(moved.Of(house, in_c), SurfaceId(11));
-
-  Scene hidden;  // the same, behind units that stand where C has its face
-  const uint32_t higher = hidden.Add({4.74, 0.5}, {4.74, 3.0}, 0.1, 2.2), units = hidden.Add({5.06, 5.0}, {5.06, 1.0}, 0.1, 1.0);
-  EXPECT_EQ(hidden.Of(house, higher), SurfaceId(1));
-  EXPECT_FALSE(hidden.Of(house, units).valid());
 }
 
 // The front of low units as long as the wall, of which nothing but single points is seen above them.
@@ -391,108 +307,6 @@ TEST(MatchSurfaces, APatchAlongTwoWallsIsOfBoth) {
   EXPECT_EQ(matches[1].plan_surface, SurfaceId(8));
   EXPECT_EQ(matches[1].mistaken, std::vector<uint32_t>{0});
   EXPECT_NEAR(matches[1].offset_m, -0.2, 1e-9);
-}
-
-TEST(MatchLevels, FloorGoesToTheRoomItLiesIn) {
-  const AGraph house = test::MakeHouse();
-  EXPECT_TRUE(Contains(house.rooms[0], {1, 1}));
-  EXPECT_FALSE(Contains(house.rooms[0], {6, 1}));
-  Scene scene;
-  MapSurface floor;
-  floor.kind = SurfaceKind::kFloor;
-  floor.plane.n = Eigen::Vector3d::UnitZ();
-  Observation o;
-  for (const Eigen::Vector3d& p : {Eigen::Vector3d(6, 1, 0.02), Eigen::Vector3d(7, 2, 0.02), Eigen::Vector3d(6.5, 3, 0.02)}) o.stats.Add(p);
-  floor.observations.push_back(o);
-  scene.map.surfaces.push_back(floor);
-  MapSurface table = floor;
-  table.observations[0].stats = o.stats.Transformed(Eigen::Isometry3d(Eigen::Translation3d(0, 0, 0.75)));
-  scene.map.surfaces.push_back(table);
-  const auto matches = MatchSurfaces(scene.map, house, Eigen::Isometry3d::Identity(), {});
-  ASSERT_EQ(matches.size(), 1u);
-  EXPECT_EQ(matches[0].room, RoomId(2));
-  EXPECT_NEAR(matches[0].offset_m, 0.02, 1e-9);
-}
-
-TEST(MatchLevels, TheBestSeenFloorIsWhereTheRobotStandsWhileTheHeightIsAGuess) {
-  const AGraph house = test::MakeHouse();
-  Scene scene;
-  const auto add = [&scene](double z_m, SurfaceKind kind, std::initializer_list<Eigen::Vector2d> places) {
-    MapSurface level;
-    level.kind = kind;
-    level.plane.n = (kind == SurfaceKind::kFloor ? 1 : -1) * Eigen::Vector3d::UnitZ();
-    level.observations.emplace_back();
-    for (const Eigen::Vector2d& p : places) level.observations[0].stats.Add({p.x(), p.y(), z_m});
-    scene.map.surfaces.push_back(level);
-  };
-  const double ceiling_m = house.rooms[2].ceiling_z_m;
-  add(0.4, SurfaceKind::kFloor, {{6, 1}, {7, 2}, {6.5, 3}});
-  add(1.1, SurfaceKind::kFloor, {{6, 1}, {6.2, 1.2}});  // a table
-  add(ceiling_m + 0.41, SurfaceKind::kCeiling, {{6, 1}, {7, 2}, {6.5, 3}});
-  const auto matches = MatchLevels(scene.map, house, Eigen::Isometry3d::Identity(), {});
-  ASSERT_EQ(matches.size(), 2u);
-  EXPECT_EQ(matches[0].map_surface, 0u);
-  EXPECT_NEAR(matches[0].offset_m, 0.4, 1e-9);
-  EXPECT_EQ(matches[1].map_surface, 2u);
-  EXPECT_NEAR(matches[1].offset_m, 0.41, 1e-9);
-
-  add(0.02, SurfaceKind::kFloor, {{6, 1}, {7, 2}});  // one floor where planned: the height is known, the others stand on it
-  const auto known = MatchLevels(scene.map, house, Eigen::Isometry3d::Identity(), {});
-  ASSERT_EQ(known.size(), 1u);
-  EXPECT_EQ(known[0].map_surface, 3u);
-}
-
-// A map with levels in room 2 of the house, each of `points` points.
-class Levels {
- public:
-  void Add(double z_m, int points, SurfaceKind kind = SurfaceKind::kFloor) {
-    MapSurface level;
-    level.kind = kind;
-    level.plane.n = (kind == SurfaceKind::kFloor ? 1 : -1) * Eigen::Vector3d::UnitZ();
-    level.observations.emplace_back();
-    for (int k = 0; k < points; ++k) level.observations[0].stats.Add({6 + 0.01 * (k % 100), 1 + 0.01 * (k / 100), z_m});
-    scene_.map.surfaces.push_back(level);
-  }
-  // A view more of a level.
-  void AddTo(size_t level, const Eigen::Vector3d& at, int points) {
-    std::vector<Observation>& views = scene_.map.surfaces[level].observations;
-    views.emplace_back();
-    for (int k = 0; k < points; ++k) views.back().stats.Add(at + Eigen::Vector3d(0.001 * k, 0, 0));
-  }
-  [[nodiscard]] std::vector<uint32_t> Matched() const {
-    std::vector<uint32_t> out;
-    for (const Match& m : MatchLevels(scene_.map, test::MakeHouse(), Eigen::Isometry3d::Identity(), {})) out.push_back(m.map_surface);
-    return out;
-  }
-
- private:
-  Scene scene_;
-};
-
-TEST(MatchLevels, ABenchTakenForTheFloorGivesWayToTheFloorBelowIt) {
-  Levels levels;
-  levels.Add(0.0, 300);  // the bench, where the plan has the floor: the place is 0.3 m too low
-  EXPECT_EQ(levels.Matched(), std::vector<uint32_t>{0});
-  levels.Add(-0.3, 50);
-  EXPECT_EQ(levels.Matched(), std::vector<uint32_t>{0});  // not yet
-  levels.Add(-0.31, 100);
-  EXPECT_EQ(levels.Matched(), (std::vector<uint32_t>{1, 2}));
-}
-
-TEST(MatchLevels, NeitherTablesNorAFewReflectionsBelowTheFloorMoveIt) {
-  Levels levels;
-  levels.Add(0.02, 300);
-  levels.Add(0.75, 900);  // tables, seen better than the floor under them
-  levels.Add(-0.9, 80);   // a glossy floor
-  EXPECT_EQ(levels.Matched(), std::vector<uint32_t>{0});
-}
-
-TEST(MatchLevels, ABenchIsNoFloorWhereTheFloorUnderItIsMatchedToTheNextRoom) {
-  Levels levels;
-  levels.Add(0.0, 100);
-  levels.AddTo(0, {1, 1, 0}, 500);  // goes on into room 0, where more of it was seen
-  levels.Add(0.22, 80);
-  EXPECT_EQ(levels.Matched(), std::vector<uint32_t>{0});
 }
 
 TEST(CouplingOptions, CheckNamesFieldValueAndRule) {

@@ -155,6 +155,12 @@ TEST_F(Program, ExplainKnowsEveryCodeItLists) {
   EXPECT_THAT(unknown.err, HasSubstr("did you mean `WallWithoutBody`?"));
 }
 
+TEST_F(Program, OutputThatIsLostIsAnError) {
+  const int status = std::system(("'" PLUMB_PROGRAM "' explain PL2301 > /dev/full 2> '" + folder_.path() + "/.err'").c_str());
+  EXPECT_EQ(WEXITSTATUS(status), 2);
+  EXPECT_THAT(Read(".err"), HasSubstr("cannot write to standard output"));
+}
+
 TEST_F(Program, InspectWritesEveryForm) {
   const Outcome written = Plumb(
       "inspect house.agraph --svg house.svg --graphml house.graphml --nav2 map --storey 'ground floor' --height_m 0.5 --resolution_m 0.1");

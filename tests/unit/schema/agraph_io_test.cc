@@ -71,6 +71,12 @@ TEST(AGraphIo, RefusesLeavesThatMoveInNoKnownWay) {
   }
 }
 
+TEST(AGraphIo, RefusesADoorOfThreeLeaves) {
+  AGraph house = test::MakeHouse();
+  house.doorways[1].leaves.resize(3);
+  EXPECT_EQ(ReadAGraph(WriteAGraph(house)).error().code, ErrorCode::kAGraphInconsistent);
+}
+
 TEST(AGraphIo, RefusesAliasesOfRoomsThatAreNotThere) {
   AGraph house = test::MakeHouse();
   house.aliases.emplace_back();

@@ -174,6 +174,39 @@ TEST(OptimizeJointly, BothFacesOfAWallShareOneDeviationAndGiveItsThickness) {
   EXPECT_LT(middle.thickness_error_m, 0.022);
 }
 
+// The plan parts C's east side into two faces; what was seen of it is one patch.
+TEST(OptimizeJointly, WhatWasSeenOfASideIsCountedForEachOfItsFaces) {
+  const AGraph house = test::MakeHouse();
+  const Solved whole = Solve(house, {});
+  AGraph parted = house;
+  const Surface side = house.surfaces[9];
+  parted.surfaces[9].end = side.start + (side.end - side.start) / 3;
+  parted.surfaces.push_back(side);
+  parted.surfaces.back().start = parted.surfaces[9].end;
+  const Solved divided = SolveDrive(parted, test::DriveThroughHouse(house, {}));
+  const WallEstimate &a = whole.result.walls[kEast], &b = divided.result.walls[kEast];
+  ASSERT_EQ(a.seen.size(), 1u);
+  ASSERT_EQ(b.seen.size(), 2u);
+  EXPECT_NEAR(b.observed_m2, a.observed_m2, 1e-6);
+  EXPECT_NEAR(b.seen[0].observed_m2 / b.observed_m2, 1.0 / 3, 0.05);
+  EXPECT_NEAR(b.seen[1].num_points / b.num_points, 2.0 / 3, 0.05);
+}
+
+TEST(OptimizeJointly, TheSpanOfAWallEndsWithItsFace) {
+  AGraph house = test::MakeHouse();
+  Solved s = Solve(house, {});
+  const double span_m = s.result.walls[kEast].span_m, length_m = house.surfaces[9].length_m();
+  EXPECT_LE(span_m, length_m + 1e-6);
+  EXPECT_GT(span_m, 0.8 * length_m);
+  for (MapSurface& patch : s.drive.map.surfaces) {  // each goes on by a metre at either end, along other walls
+    const Eigen::Vector2d on = (patch.end - patch.start).normalized();
+    patch.start -= on;
+    patch.end += on;
+  }
+  const JointResult longer = OptimizeJointly(s.drive.map, house, s.matches, s.result.T_plan_map);
+  EXPECT_NEAR(longer.walls[kEast].span_m, length_m, 0.05);
+}
+
 TEST(OptimizeJointly, TwoSigmaCovers) {
   const AGraph house = test::MakeHouse();
   int inside = 0, total = 0;

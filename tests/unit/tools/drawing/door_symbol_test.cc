@@ -122,6 +122,36 @@ TEST_F(DoorSymbolTest, ACutOverTheLintelShowsNoLeaf) {
   };
   EXPECT_EQ(leaves(1.1), 2u);  // D1 and D3
   EXPECT_EQ(leaves(2.4), 0u);
+  for (Doorway& d : house_.doorways) d.position.z() -= 1.5;  // in a room that is sunk its lintel is below the cut
+  EXPECT_EQ(leaves(1.1), 0u);
+}
+
+TEST_F(DoorSymbolTest, OfTwoLeavesTheOneWithoutAJambHangsAtTheOther) {
+  const double w = door().width_m, face = 0.5 * thickness_m_;
+  for (const Jamb known : {Jamb::kLeft, Jamb::kRight}) {
+    for (const bool first : {true, false}) {
+      std::vector<DoorLeaf> leaves = {{LeafOperation::kSwing, known, DoorwaySide::kRoomB},
+                                      {LeafOperation::kSwing, Jamb::kUnknown, DoorwaySide::kRoomB}};
+      if (!first) std::swap(leaves[0], leaves[1]);
+      const std::string svg = Draw(leaves);
+      for (const double side : {-0.5, 0.5}) EXPECT_THAT(svg, HasSubstr(Leaf(At(side * w, face), At(side * w, face + 0.5 * w))));
+    }
+  }
+}
+
+TEST_F(DoorSymbolTest, WhatIsUnknownDoesNotOpenIntoAClosetThatIsTooShallow) {
+  const double w = door().width_m, face = 0.5 * thickness_m_;
+  for (Eigen::Vector2d& p : house_.rooms[door().room_b.index()].polygon) p.y() = std::min(p.y(), middle_.y() + 0.6 * w);
+  const std::string to_a = Draw({});
+  EXPECT_TRUE(to_a.find(Leaf(At(0.5 * w, -face), At(0.5 * w, -face - w))) != std::string::npos ||
+              to_a.find(Leaf(At(-0.5 * w, -face), At(-0.5 * w, -face - w))) != std::string::npos)
+      << to_a;
+}
+
+TEST_F(DoorSymbolTest, ADoorTooWideForTwoLeavesIsDrawnShut) {
+  door().width_m = 3;
+  EXPECT_THAT(Draw({}), HasSubstr("class=\"assumed\""));
+  EXPECT_THAT(Draw({}), Not(HasSubstr("class=\"swing\"")));
 }
 
 // All kinds side by side, for people to look at. PLUMB_UPDATE_GOLDEN=1 rewrites it.

@@ -128,6 +128,21 @@ TEST(IfcDoors, PanelsStateTheirShares) {
   EXPECT_NEAR(leaves[1].width_m, 0.66 / 1.02 * 1.2, 1e-9);
 }
 
+// The panels are the type's, left and right as it is drawn; what the door itself states is in its own frame.
+TEST(IfcDoors, PanelsOfAMirroredTypeAreMirrored) {
+  Scene scene;
+  scene.operation = ".DOUBLE_DOOR_SINGLE_SWING.";
+  scene.type = TypeOf(".NOTDEFINED.");
+  scene.target = "IFCCARTESIANTRANSFORMATIONOPERATOR3D(#90,#91,#21,1.,#92)";
+  scene.curves =
+      "#80=IFCDOORPANELPROPERTIES('panel00000000000000001',$,$,$,0.04,.SWINGING.,0.7,.RIGHT.,$);\n"
+      "#81=IFCDOORPANELPROPERTIES('panel00000000000000002',$,$,$,0.04,.SWINGING.,0.3,.LEFT.,$);\n"
+      "#90=IFCDIRECTION((-1.,0.,0.));\n#91=IFCDIRECTION((0.,1.,0.));\n#92=IFCDIRECTION((0.,0.,1.));\n";
+  const auto leaves = LeavesOf(scene);
+  ASSERT_EQ(leaves.size(), 2u);
+  for (const PlanLeaf& leaf : leaves) EXPECT_NEAR(leaf.width_m, leaf.to_jamb.x() > 0 ? 0.36 : 0.84, 1e-9);
+}
+
 TEST(IfcDoors, DrawnSwingsTellWhatIsNotStated) {
   Scene scene;
   scene.operation = ".NOTDEFINED.";
@@ -181,6 +196,34 @@ TEST(IfcDoors, SymbolsThatMultiplyEndSoon) {
   }
   scene.symbol += ",#100";
   EXPECT_EQ(LeavesOf(scene).size(), 1u);
+}
+
+// One shape and one type with many references, shared by many doors: each reference of each door is work.
+TEST(IfcDoors, ReferencesThatManyDoorsShareAreCounted) {
+  constexpr int kReferences = 30000, kDoors = 2000;
+  std::string items = "#33", maps = "#39", doors, ids;
+  for (int i = 1; i < kReferences; ++i) {
+    items += ",#33";
+    maps += ",#39";
+  }
+  for (int i = 0; i < kDoors; ++i) {
+    doors += fmt::format("#{}=IFCDOOR('door{:018}',$,'D',$,$,#25,#31,$,2.,1.2,.DOOR.,$,$);\n", 1000 + i, i);
+    ids += fmt::format("{}#{}", i == 0 ? "" : ",", 1000 + i);
+  }
+  const std::string text = test::IfcText(
+      "#21=IFCCARTESIANPOINT((0.,0.,0.));\n#24=IFCAXIS2PLACEMENT3D(#21,$,$);\n#25=IFCLOCALPLACEMENT($,#24);\n"
+      "#31=IFCPRODUCTDEFINITIONSHAPE($,$,(#32));\n#32=IFCSHAPEREPRESENTATION($,'FootPrint','MappedRepresentation',(" +
+          items +
+          "));\n#33=IFCMAPPEDITEM(#34,#36);\n#34=IFCREPRESENTATIONMAP(#24,#37);\n#39=IFCREPRESENTATIONMAP(#24,#37);\n"
+          "#36=IFCCARTESIANTRANSFORMATIONOPERATOR3D($,$,#21,1.,$);\n#37=IFCSHAPEREPRESENTATION($,'FootPrint','Curve2D',());\n"
+          "#60=IFCDOORTYPE('type000000000000000001',$,'T',$,$,$,(" +
+          maps + "),$,$,.DOOR.,.SINGLE_SWING_LEFT.,$,$);\n" + doors + "#61=IFCRELDEFINESBYTYPE('rel0000000000000000001',$,$,$,(" + ids +
+          "),#60);\n",
+      "IFC4");
+  DiagnosticSink sink;
+  (void)ReadIfc(Source{.path = "d.ifc", .bytes = text, .sha256 = "", .format = DetectFormat(text)}, sink);
+  EXPECT_TRUE(
+      std::any_of(sink.all().begin(), sink.all().end(), [](const Diagnostic& d) { return d.kind == DiagnosticKind::kPlanTooComplex; }));
 }
 
 TEST(IfcDoors, PeoplesOwnWords) {

@@ -279,6 +279,57 @@ TEST(Mapper, WallAndDoorLeafBehindItStayApart) {
   EXPECT_TRUE(leaf);
 }
 
+// What a sensor at `T` sees of two walls and a floor.
+Scan ThreePlanes(double stamp_s, const Eigen::Isometry3d& T) {
+  Scan scan;
+  scan.stamp_s = stamp_s;
+  const auto add_plane = [&](const Eigen::Vector3d& corner, const Eigen::Vector3d& u, const Eigen::Vector3d& v) {
+    for (double a = 0; a < 4; a += 0.05) {
+      for (double b = 0; b < 2; b += 0.05) scan.points.push_back((T.inverse() * Eigen::Vector3d(corner + a * u + b * v)).cast<float>());
+    }
+  };
+  add_plane({3, -2, -1}, Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ());
+  add_plane({-1, 2, -1}, Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitZ());
+  add_plane({-1, 0, -1}, Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY());
+  return scan;
+}
+
+// A robot that goes to and fro, by an odometry whose third keyframe is tilted; that one goes into the first.
+SGraph ToAndFro(bool hold_poses) {
+  MapperOptions options;
+  options.recent_keyframes = 3;
+  options.well_known_views = 2;
+  Mapper mapper(options);
+  mapper.HoldPoses(hold_poses);
+  for (int i = 0; i < 6; ++i) {
+    const Eigen::Isometry3d truth = At(i % 2 == 0 ? 0.1 * i : 0.3);
+    const Eigen::Isometry3d error(Eigen::AngleAxisd(i == 2 ? 0.008 : 0.0, Eigen::Vector3d::UnitX()));
+    mapper.AddScan(ThreePlanes(3.0 * i, truth), truth * error);
+  }
+  mapper.Flush();
+  return mapper.graph();
+}
+
+TEST(Mapper, AMergedKeyframeIsLaidOnTheOneItGoesInto) {
+  const SGraph graph = ToAndFro(false);
+  ASSERT_TRUE(graph.keyframes[2].merged);
+  const uint32_t into = graph.keyframes[2].merged->into;
+  const Eigen::Isometry3d T_map_kf = graph.keyframes[into].T_map_kf * graph.keyframes[2].merged->T_into_kf;
+  EXPECT_LT(Eigen::AngleAxisd(T_map_kf.linear()).angle(), 0.004) << "of the 0.008 that odometry was off by";
+  for (const MapSurface& surface : graph.surfaces) EXPECT_EQ(FindObservation(surface, 2), nullptr);
+  for (const MapSurface& surface : graph.surfaces) {  // planes are those of what was moved
+    PlaneStats sum;
+    for (const Observation& o : surface.observations) sum.Add(o.stats.Transformed(graph.keyframes[o.keyframe].T_map_kf));
+    EXPECT_NEAR(surface.plane.SignedDistance(sum.centroid()), 0, 1e-6);
+  }
+}
+
+TEST(Mapper, AMergedKeyframeStaysWhereThePlanHoldsIt) {
+  const SGraph graph = ToAndFro(true);
+  ASSERT_TRUE(graph.keyframes[2].merged);
+  EXPECT_NEAR(Eigen::AngleAxisd(graph.keyframes[2].T_map_kf.linear()).angle(), 0.008, 1e-6);
+}
+
 TEST(Mapper, EmptyScansMakeNoKeyframe) {
   Mapper mapper;
   for (int i = 0; i < 5; ++i) EXPECT_FALSE(mapper.AddScan(Scan{static_cast<double>(i), {}, {}, {}, {}}, At(0.6 * i)));

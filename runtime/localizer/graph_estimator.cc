@@ -225,10 +225,12 @@ struct GraphEstimator::Impl {
 
   // Does the evidence still speak for the fix? A rival, or "outside the plan", that is better several times in a row ends it.
   void Rescore() {
-    const double own = matcher.Score(mapper.graph(), T_plan_map);
+    std::vector<Eigen::Isometry3d> poses = {T_plan_map};
+    poses.insert(poses.end(), rivals.begin(), rivals.end());
+    const std::vector<double> scores = matcher.Scores(mapper.graph(), poses);
     double best_rival = 0;  // "outside the plan"
-    for (const Eigen::Isometry3d& T : rivals) best_rival = std::max(best_rival, matcher.Score(mapper.graph(), T));
-    votes_against = best_rival > own + options.rival_margin_nats ? votes_against + 1 : 0;
+    for (size_t i = 1; i < scores.size(); ++i) best_rival = std::max(best_rival, scores[i]);
+    votes_against = best_rival > scores.front() + options.rival_margin_nats ? votes_against + 1 : 0;
     if (votes_against < options.lost_after) return;
     verdict = Verdict::kLost;
     HoldPose();

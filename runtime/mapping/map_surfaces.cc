@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "runtime/mapping/cell_planes.h"
 #include "runtime/mapping/plane_fit.h"
@@ -64,6 +65,11 @@ void UpdatePlane(const std::vector<Keyframe>& keyframes, const Eigen::Vector3d& 
   track->patch.Follow(keyframes[track->patch.keyframe()].T_map_kf, surface->plane);
 }
 
+bool AreWithin(const Ball& a, const Ball& b, double margin_m) {
+  const double reach_m = a.radius_m + b.radius_m + margin_m;
+  return (a.center - b.center).squaredNorm() <= reach_m * reach_m;
+}
+
 // Bounds of b in a's coordinates.
 struct Bounds {
   Eigen::Vector2d lo, hi;
@@ -117,6 +123,13 @@ double SurfaceDistance(const SurfacePatch& a, const SurfacePatch& b, const Mappe
   return worst_m <= options.merge_distance_m ? 0.5 * sum_m : kApart;
 }
 
+// Where two surfaces that are one are compared, each reaches to within a gap in both coordinates, and their planes to within the merge
+// distance of each other. What one covers in the other's coordinates is bounded by a rectangle, as turned: up to sqrt(2) times its ball.
+bool MayTouch(const Ball& a, const Ball& b, const MapperOptions& options) {
+  const double margin_m = 4 * options.merge_gap_m + 4 * options.merge_distance_m;
+  return AreWithin({a.center, std::numbers::sqrt2 * a.radius_m}, {b.center, std::numbers::sqrt2 * b.radius_m}, margin_m);
+}
+
 bool FitOnePlane(const SurfaceTrack& a, const SurfaceTrack& b, const MapperOptions& options) {
   PlaneStats both = a.sum;
   both.Add(b.sum);
@@ -131,9 +144,12 @@ bool FitOnePlane(const SurfaceTrack& a, const SurfaceTrack& b, const MapperOptio
 }
 
 bool IsEcho(const MapSurface& b, const SurfacePatch& b_patch, const std::vector<MapSurface>& surfaces,
-            const std::vector<SurfaceTrack>& tracks) {
+            const std::vector<SurfaceTrack>& tracks, const std::vector<Ball>& balls) {
+  const Ball b_ball = b_patch.ball();
+  const double margin_m = kEchoDistance_m + std::numbers::sqrt2 * SurfacePatch::CoverMargin_m();
   std::vector<const SurfacePatch*> stronger;
   for (size_t i = 0; i < surfaces.size(); ++i) {
+    if (!AreWithin(b_ball, balls[i], margin_m)) continue;
     const MapSurface& a = surfaces[i];
     const bool strong = a.kind == b.kind && !a.observations.empty() && b.num_points <= kEchoPoints * a.num_points;
     if (strong && a.plane.n.dot(b.plane.n) >= kEchoFacingCos) stronger.push_back(&tracks[i].patch);

@@ -28,15 +28,19 @@ struct TrackedSurface {
 // would pass for one in offset.
 [[nodiscard]] double SurfaceDistance(const SurfacePatch& a, const SurfacePatch& b, const MapperOptions& options);
 
+// False only of surfaces whose distance is infinity because they are far apart: a test of few steps, to be made first.
+[[nodiscard]] bool MayTouch(const Ball& a, const Ball& b, const MapperOptions& options);
+
 // Whether one plane fits the points of both about as well as each one's own does: nowhere near a step, however gently a plane could lean
 // across it.
 [[nodiscard]] bool FitOnePlane(const SurfaceTrack& a, const SurfaceTrack& b, const MapperOptions& options);
 
 // Whether b is none: most of its cells lie close in front of or behind where surfaces that face the same way have been seen much more
 // often, one or several of them. Of two opaque surfaces one hides the other, so nothing real can be there; such planes lean from a wall to
-// a door's casing or a window's frame. O(cells of b) for each of `surfaces`, which have `tracks` in the same order and may contain b.
+// a door's casing or a window's frame. O(cells of b) for each surface near by, and a few steps for each of `surfaces`, which have `tracks`
+// and `balls` (theirs) in the same order and may contain b.
 [[nodiscard]] bool IsEcho(const MapSurface& b, const SurfacePatch& b_patch, const std::vector<MapSurface>& surfaces,
-                          const std::vector<SurfaceTrack>& tracks);
+                          const std::vector<SurfaceTrack>& tracks, const std::vector<Ball>& balls);
 
 // Adds b's observations and cells to a.
 void Absorb(const TrackedSurface& b, const std::vector<Keyframe>& keyframes, MapSurface* a, SurfaceTrack* a_track);

@@ -155,7 +155,7 @@ void Mapper::Merge(uint32_t keyframe, uint32_t into) {
   if (!poses_held_) keyframes[keyframe].T_map_kf = keyframes[into].T_map_kf * AlignedPose(graph_, keyframe, into, options_);
   MergeKeyframe(keyframe, into, &graph_);
   for (size_t i = 0; i < graph_.surfaces.size(); ++i) {
-    if (FindObservation(graph_.surfaces[i], into) != nullptr) Recompute(keyframes, &graph_.surfaces[i], &tracks_[i]);
+    if (FindObservation(graph_.surfaces[i], into) != nullptr) RecomputeSurface(i);
   }
 }
 
@@ -211,13 +211,24 @@ void Mapper::AddSegment(const Segment& segment, const Keyframe& keyframe) {
     best_m = distance_m;
   }
   if (best < graph_.surfaces.size()) {
-    Absorb(candidate, graph_.keyframes, &graph_.surfaces[best], &tracks_[best]);
+    AbsorbInto(best, candidate);
     return;
   }
-  if (IsEcho(candidate.surface, candidate.track.patch, graph_.surfaces, tracks_)) return;
+  if (IsEcho(candidate.surface, candidate.track.patch, graph_.surfaces, tracks_, balls_)) return;
   candidate.surface.id = static_cast<uint32_t>(graph_.surfaces.size());
   graph_.surfaces.push_back(std::move(candidate.surface));
+  balls_.push_back(candidate.track.patch.ball());
   tracks_.push_back(std::move(candidate.track));
+}
+
+void Mapper::AbsorbInto(size_t i, const TrackedSurface& other) {
+  Absorb(other, graph_.keyframes, &graph_.surfaces[i], &tracks_[i]);
+  balls_[i] = tracks_[i].patch.ball();
+}
+
+void Mapper::RecomputeSurface(size_t i) {
+  Recompute(graph_.keyframes, &graph_.surfaces[i], &tracks_[i]);
+  balls_[i] = tracks_[i].patch.ball();
 }
 
 void Mapper::Empty(size_t i) {
@@ -232,16 +243,16 @@ void Mapper::MergeDuplicates() {
   for (size_t i = 0; i < surfaces.size(); ++i) {
     for (size_t k = i + 1; k < surfaces.size(); ++k) {
       if (surfaces[i].observations.empty()) break;
-      if (surfaces[k].observations.empty()) continue;
+      if (surfaces[k].observations.empty() || !MayTouch(balls_[i], balls_[k], options_)) continue;
       if (std::isinf(SurfaceDistance(tracks_[i].patch, tracks_[k].patch, options_)) || !FitOnePlane(tracks_[i], tracks_[k], options_))
         continue;
-      Absorb({surfaces[k], tracks_[k]}, graph_.keyframes, &surfaces[i], &tracks_[i]);
+      AbsorbInto(i, {surfaces[k], tracks_[k]});
       Empty(k);
       k = i;  // the grown surface may reach others
     }
   }
   for (size_t i = 0; i < surfaces.size(); ++i) {
-    if (!surfaces[i].observations.empty() && IsEcho(surfaces[i], tracks_[i].patch, surfaces, tracks_)) Empty(i);
+    if (!surfaces[i].observations.empty() && IsEcho(surfaces[i], tracks_[i].patch, surfaces, tracks_, balls_)) Empty(i);
   }
 }
 
@@ -250,7 +261,7 @@ void Mapper::OnPosesChanged() {
     if (keyframe.merged) keyframe.T_map_kf = graph_.keyframes[keyframe.merged->into].T_map_kf * keyframe.merged->T_into_kf;
   }
   for (size_t i = 0; i < graph_.surfaces.size(); ++i) {
-    if (!graph_.surfaces[i].observations.empty()) Recompute(graph_.keyframes, &graph_.surfaces[i], &tracks_[i]);
+    if (!graph_.surfaces[i].observations.empty()) RecomputeSurface(i);
   }
   MergeDuplicates();
   if (graph_.keyframes.empty()) return;

@@ -49,6 +49,8 @@ class Mapper {
   [[nodiscard]] Eigen::Vector3d VelocitySinceLast(double stamp_s, const Eigen::Isometry3d& T_odom_lidar) const;
   [[nodiscard]] Smear SmearOf(double stamp_s, const Eigen::Isometry3d& T_odom_lidar) const;
   void AddSegment(const Segment& segment, const Keyframe& keyframe);
+  void AbsorbInto(size_t i, const TrackedSurface& other);
+  void RecomputeSurface(size_t i);
   void Empty(size_t i);
   void ClosePlanarLoops(const KeyframeWindow& window);
   void CloseSpatialLoops();
@@ -60,6 +62,7 @@ class Mapper {
   SGraph graph_;
   Eigen::Isometry3d T_map_odom_ = Eigen::Isometry3d::Identity();
   std::vector<SurfaceTrack> tracks_;  // of each surface
+  std::vector<Ball> balls_;           // of each track's patch
   std::optional<KeyframeWindow> window_;
   struct LastScan {
     double stamp_s = 0;

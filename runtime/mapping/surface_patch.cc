@@ -23,8 +23,8 @@ void SurfacePatch::Follow(const Eigen::Isometry3d& T_map_kf, const Plane& plane)
   const Eigen::Vector3d anchor = T_map_kf * anchor_kf_;
   anchor_ = anchor - plane.SignedDistance(anchor) * plane.n;
   // A wall's direction follows from its plane; a floor's does not and turns with the keyframe.
-  const Eigen::Vector3d along = kind_ == SurfaceKind::kWall ? AxesOf(plane, kind_, Eigen::Vector3d::UnitZ()).along
-                                                            : Eigen::Vector3d(T_map_kf.linear() * along_kf_);
+  const Eigen::Vector3d along =
+      kind_ == SurfaceKind::kWall ? AxesOf(plane, kind_, Eigen::Vector3d::UnitZ()).along : Eigen::Vector3d(T_map_kf.linear() * along_kf_);
   along_ = (along - plane.n.dot(along) * plane.n).normalized();
   across_ = kind_ == SurfaceKind::kWall ? along_.cross(plane.n) : plane.n.cross(along_);
 }
@@ -45,12 +45,15 @@ std::vector<Eigen::Vector3d> SurfacePatch::CellPoints() const {
 
 bool SurfacePatch::Covers(const Eigen::Vector3d& p, double distance_m) const {
   if (std::abs(plane_.SignedDistance(p)) > distance_m) return false;
-  const Eigen::Vector2d at = Coordinates(p) / kCell_m;
+  const Eigen::Vector2d on = Coordinates(p), at = on / kCell_m;
+  if ((on - hi_).maxCoeff() > CoverMargin_m() || (lo_ - on).maxCoeff() > CoverMargin_m()) return false;
   for (int k = 0; k < 9; ++k) {
     if (index_.Find(VoxelKey({at.x() + k % 3 - 1, at.y() + k / 3 - 1, 0})) != VoxelIndex::kNone) return true;
   }
   return false;
 }
+
+double SurfacePatch::CoverMargin_m() { return 2 * kCell_m; }
 
 double SurfacePatch::area_m2() const { return kCell_m * cell_height_m_ * static_cast<double>(cells_.size()); }
 

@@ -10,6 +10,11 @@
 
 namespace plumb::runtime {
 
+struct Ball {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();
+  double radius_m = 0;
+};
+
 // Occupied cells on a plane, in coordinates (along, across) of AxesOf() about an anchor point. The anchor is kept in the frame of a
 // keyframe, so that the patch follows when the optimizer moves it; everything that is returned is in the map frame.
 class SurfacePatch {
@@ -35,12 +40,16 @@ class SurfacePatch {
   // Bounds of what was marked.
   [[nodiscard]] const Eigen::Vector2d& lo() const { return lo_; }
   [[nodiscard]] const Eigen::Vector2d& hi() const { return hi_; }
+  // Around these bounds. Map frame.
+  [[nodiscard]] Ball ball() const { return {Point(0.5 * (lo_ + hi_)), 0.5 * (hi_ - lo_).norm()}; }
   // Coordinates of the first point marked in every cell, in that order; and the points.
   [[nodiscard]] const std::vector<Eigen::Vector2f>& cells() const { return cells_; }
   [[nodiscard]] std::vector<Eigen::Vector3d> CellPoints() const;
   [[nodiscard]] double area_m2() const;
   // Whether p lies within distance_m of the plane and on or next to a cell.
   [[nodiscard]] bool Covers(const Eigen::Vector3d& p, double distance_m) const;
+  // How far outside the bounds, in either coordinate, a point may be covered: less than this.
+  [[nodiscard]] static double CoverMargin_m();
 
  private:
   uint32_t keyframe_;
@@ -50,7 +59,7 @@ class SurfacePatch {
   Eigen::Vector3d anchor_kf_, along_kf_, normal_kf_;  // keyframe frame
   Eigen::Vector3d anchor_, along_, across_;           // map frame
   VoxelIndex index_;
-  std::vector<Eigen::Vector2f> cells_;                // coordinates of each cell's first point
+  std::vector<Eigen::Vector2f> cells_;  // coordinates of each cell's first point
   Eigen::Vector2d lo_, hi_;
 };
 

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "runtime/matching/wall_grid.h"
+
 namespace plumb::runtime {
 namespace {
 
@@ -83,10 +85,10 @@ std::vector<uint32_t> SpreadPoints(const Keyframe& keyframe, int count) {
   return points;
 }
 
-int WallAt(const std::vector<MapWall>& walls, const Eigen::Vector3d& p) {
+int WallAt(const std::vector<MapWall>& walls, const WallGrid& grid, const Eigen::Vector3d& p) {
   int best = -1;
   double best_m = kOnSurface_m;
-  for (size_t i = 0; i < walls.size(); ++i) {
+  for (const uint32_t i : grid.Near(p.head<2>())) {
     const MapWall& w = walls[i];
     const Eigen::Vector2d v = p.head<2>() - w.start;
     const double off_m = std::abs(w.normal.dot(v)), u_m = w.along.dot(v);
@@ -100,6 +102,7 @@ int WallAt(const std::vector<MapWall>& walls, const Eigen::Vector3d& p) {
 
 // Rays of all chosen keyframes, interleaved.
 std::vector<MapRay> SampleRays(const SGraph& map, const MapView& view, const MatcherOptions& options) {
+  const WallGrid grid(view.walls, std::numbers::sqrt2 * kOnSurface_m);
   std::vector<std::vector<MapRay>> per_keyframe;
   for (const Keyframe* keyframe : SpreadKeyframes(map, options.max_keyframes)) {
     Eigen::Isometry3d T = keyframe->T_map_kf;
@@ -112,7 +115,7 @@ std::vector<MapRay> SampleRays(const SGraph& map, const MapView& view, const Mat
       ray.origin = T.translation();
       ray.range_m = (p - ray.origin).norm();
       ray.direction = (p - ray.origin) / ray.range_m;
-      ray.wall = WallAt(view.walls, p);
+      ray.wall = WallAt(view.walls, grid, p);
       per_keyframe.back().push_back(ray);
     }
   }

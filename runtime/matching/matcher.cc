@@ -216,15 +216,19 @@ std::optional<Guidance> Matcher::Guide(const SGraph& map, const MatchResult& mat
   return runtime::Guide(impl_->search.plan, map, match, T_map_lidar, impl_->search.options);
 }
 
-double Matcher::Score(const SGraph& map, const Eigen::Isometry3d& T_plan_map) const {
+std::vector<double> Matcher::Scores(const SGraph& map, std::span<const Eigen::Isometry3d> T_plan_map) const {
   const PoseSearch& search = impl_->search;
   const MapView view = ViewMap(map, search.options);
-  PlanarPose pose;
-  pose.yaw_rad = std::atan2(T_plan_map.linear()(1, 0), T_plan_map.linear()(0, 0));
-  const Eigen::Vector3d t = T_plan_map.translation() - search.plan.plan().origin;
-  pose.t_m = t.head<2>() + pose.rotation() * view.center_m;
-  pose.z_m = t.z();
-  return JudgeRays(search.plan, view, pose, search.options).log_likelihood;
+  std::vector<double> scores;
+  for (const Eigen::Isometry3d& T : T_plan_map) {
+    PlanarPose pose;
+    pose.yaw_rad = std::atan2(T.linear()(1, 0), T.linear()(0, 0));
+    const Eigen::Vector3d t = T.translation() - search.plan.plan().origin;
+    pose.t_m = t.head<2>() + pose.rotation() * view.center_m;
+    pose.z_m = t.z();
+    scores.push_back(JudgeRays(search.plan, view, pose, search.options).log_likelihood);
+  }
+  return scores;
 }
 
 }  // namespace plumb::runtime

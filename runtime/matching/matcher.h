@@ -5,6 +5,7 @@
 #include <Eigen/Geometry>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -91,8 +92,8 @@ class Matcher {
   // Where to drive so that the hypotheses of a match of `map` are told apart; see guidance.h.
   [[nodiscard]] std::optional<Guidance> Guide(const SGraph& map, const MatchResult& match, const Eigen::Isometry3d& T_map_lidar) const;
 
-  // Log-likelihood of one pose, on the same scale as Hypothesis::log_likelihood: for re-scoring an accepted fix against its rivals.
-  [[nodiscard]] double Score(const SGraph& map, const Eigen::Isometry3d& T_plan_map) const;
+  // Log-likelihood of each pose, on the same scale as Hypothesis::log_likelihood: for re-scoring an accepted fix against its rivals.
+  [[nodiscard]] std::vector<double> Scores(const SGraph& map, std::span<const Eigen::Isometry3d> T_plan_map) const;
 
  private:
   struct Impl;

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <functional>
+#include <random>
 
 namespace plumb::runtime {
 namespace {
@@ -32,11 +34,49 @@ SurfaceTrack WallAt(double x_min_m, double x_max_m, double y_m) { return Patch(x
 bool IsEchoOf(const TrackedSurface& b, const std::vector<TrackedSurface>& others) {
   std::vector<MapSurface> surfaces = {b.surface};
   std::vector<SurfaceTrack> tracks = {b.track};
+  std::vector<Ball> balls = {b.track.patch.ball()};
   for (const TrackedSurface& other : others) {
     surfaces.push_back(other.surface);
     tracks.push_back(other.track);
+    balls.push_back(other.track.patch.ball());
   }
-  return IsEcho(b.surface, b.track.patch, surfaces, tracks);
+  return IsEcho(b.surface, b.track.patch, surfaces, tracks, balls);
+}
+
+// A rectangle somewhere near the origin, of any kind, direction and size.
+SurfacePatch AnyPatch(std::mt19937& rng) {
+  const auto within = [&](double lo, double hi) {
+    return lo + (hi - lo) * static_cast<double>(rng() >> 8) / static_cast<double>(1u << 24);
+  };
+  const bool wall = rng() % 3 != 0;
+  const double heading_rad = 0.1 * static_cast<double>(rng() % 3) + within(-0.03, 0.03);
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.rotate(Eigen::AngleAxisd(heading_rad, Eigen::Vector3d::UnitZ()));
+  const Eigen::Vector3d normal = wall ? Eigen::Vector3d(T.linear() * Eigen::Vector3d::UnitY()) : Eigen::Vector3d::UnitZ();
+  const Eigen::Vector3d u = T.linear() * Eigen::Vector3d::UnitX(), v = normal.cross(u);
+  const Eigen::Vector3d at(within(-4, 4), within(-0.1, 0.1), within(-0.1, 0.1));
+  SurfacePatch patch(0, T, {normal, -normal.dot(at)}, wall ? SurfaceKind::kWall : SurfaceKind::kFloor, at, 0.1);
+  const double length_m = within(0.2, 4), height_m = within(0.2, 2);
+  for (const double a : {0.0, 1.0}) {
+    for (const double b : {0.0, 1.0}) patch.Mark(at + a * length_m * u + b * height_m * v);
+  }
+  return patch;
+}
+
+TEST(MayTouch, IsTrueOfAllThatHaveADistance) {
+  std::mt19937 rng(1);
+  int near = 0, far = 0;
+  for (int i = 0; i < 40000; ++i) {
+    const SurfacePatch a = AnyPatch(rng), b = AnyPatch(rng);
+    const bool may_touch = MayTouch(a.ball(), b.ball(), {});
+    if (std::isfinite(SurfaceDistance(a, b, {}))) {
+      ++near;
+      EXPECT_TRUE(may_touch);
+    }
+    far += !may_touch;
+  }
+  EXPECT_GT(near, 500);
+  EXPECT_GT(far, 1000);
 }
 
 TEST(FitOnePlane, TakesPartsOfOneWallInSpiteOfDrift) {

@@ -114,15 +114,19 @@ TEST(Matcher, GivesTheSameResultTwice) {
   }
 }
 
-TEST(Matcher, ScoreIsOnTheScaleOfTheHypotheses) {
+TEST(Matcher, ScoresAreOnTheScaleOfTheHypotheses) {
   const AGraph house = test::MakeHouse();
   const Matcher matcher(house);
   const Eigen::Isometry3d truth = UprightPose(33, 5, 6, 0.2);
   const SGraph map = MakeSyntheticMap(house, OnTour(test::kFromA, truth));
   const MatchResult result = matcher.Match(map);
   ASSERT_GE(result.hypotheses.size(), 2u);
-  for (const Hypothesis& h : result.hypotheses) EXPECT_NEAR(matcher.Score(map, h.T_plan_map), h.log_likelihood, 1e-6);
-  EXPECT_GT(matcher.Score(map, truth), matcher.Score(map, UprightPose(0, 0.5, 0, 0) * truth) + 10);
+  std::vector<Eigen::Isometry3d> poses = {truth, UprightPose(0, 0.5, 0, 0) * truth};
+  for (const Hypothesis& h : result.hypotheses) poses.push_back(h.T_plan_map);
+  const std::vector<double> scores = matcher.Scores(map, poses);
+  ASSERT_EQ(scores.size(), poses.size());
+  EXPECT_GT(scores[0], scores[1] + 10);
+  for (size_t i = 0; i < result.hypotheses.size(); ++i) EXPECT_NEAR(scores[2 + i], result.hypotheses[i].log_likelihood, 1e-6);
 }
 
 TEST(Matcher, KeepsPlansFarFromTheirOrigin) {

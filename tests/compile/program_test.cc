@@ -179,6 +179,12 @@ TEST_F(Program, InspectWritesEveryForm) {
   EXPECT_EQ(Plumb("inspect house.agraph --nav2 map --resolution_m 0").status, 2);
 }
 
+TEST_F(Program, InspectSaysWhenACutPassesAboveAllRooms) {
+  EXPECT_EQ(Plumb("inspect house.agraph --svg a.svg --section-height 2.5").err.find("ceilings"), std::string::npos);
+  EXPECT_THAT(Plumb("inspect house.agraph --svg a.svg --section-height 2.6").err,
+              HasSubstr("Ground floor: the cut at 2.60 m passes above all ceilings (2.60 m at most)"));
+}
+
 TEST_F(Program, FlippedBitsAreRefused) {
   const auto bytes = ReadFileBytes(folder_ / "house.agraph");
   ASSERT_TRUE(bytes);

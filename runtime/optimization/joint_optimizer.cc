@@ -91,14 +91,16 @@ class Optimizer {
       const double change = ExpectationStep(*problem);
       if (round > 1 && change < kSettled) break;
       result.em_rounds = round + 1;
-      if (!Solve(*problem, result)) return result;
+      if (Solve(*problem, result)) continue;
+      if (round == 0) return result;
+      break;
     }
     if (options_.covariances && options_.fit_tolerance && schedule_.consensus) {
       FitTolerance();
       problem.reset();  // it holds the state
       problem.emplace(map_, plan_, frames_, matches_, fitted_, state_);
       ExpectationStep(*problem);
-      if (!Solve(*problem, result)) return result;
+      Solve(*problem, result);
     }
     Report(options_.covariances ? problem->Covariances() : std::nullopt, result);
     return result;
@@ -111,7 +113,7 @@ class Optimizer {
     state_.place[2] -= ConsensusHeight(LevelVotes(map_, plan_, matches_, Poses(state_), Place()), options_.level_sigma_m);
   }
 
-  // False if the result is of no use.
+  // False if it came to nothing: the state stays as it was, which after a first solve is a good one.
   bool Solve(JointProblem& problem, JointResult& result) {
     const JointProblem::Outcome outcome = problem.Solve();
     result.iterations += outcome.iterations;

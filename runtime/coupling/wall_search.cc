@@ -10,13 +10,13 @@ namespace {
 constexpr double kMinArea_m2 = 1.0;
 constexpr size_t kMinObservations = 2;
 constexpr double kMinLength_m = 1.0, kMinOverlapRatio = 0.5;
-constexpr double kMinExplained = 0.5;     // of the patch, by the face
-constexpr double kMinReach_m = 1.4;       // above the face's foot: most furniture that stands alone is lower
-constexpr size_t kMinLines = 20;          // that end on it, and that go through the planned place
-constexpr double kMinPassedRatio = 0.6;   // of those that meet the planned place
-constexpr double kBelowTop_m = 0.3;       // furniture up to a ceiling leaves this much
-constexpr double kMinClosed = 0.9;        // of the face's length, if the planned place cannot be seen
-constexpr double kRivalNats = 3;          // a candidate that is better by less is no better
+constexpr double kMinExplained = 0.5;                       // of the patch, by the face
+constexpr double kMinReach_m = 1.4;                         // above the face's foot: most furniture that stands alone is lower
+constexpr size_t kMinLines = 20;                            // that end on it, and that go through the planned place
+constexpr double kMinPassedRatio = 0.6;                     // of those that meet the planned place
+constexpr double kBelowTop_m = 0.3;                         // furniture up to a ceiling leaves this much
+constexpr double kMinClosed = 0.9;                          // of the face's length, if the planned place cannot be seen
+constexpr double kRivalNats = 3;                            // a candidate that is better by less is no better
 constexpr double kSameOffset_m = 0.15, kSameYaw_rad = 0.1;  // one wall's two faces tell the same to this
 
 struct Found {
@@ -53,14 +53,14 @@ class Search {
       return std::nullopt;
     const double explained = ExplainedRatio(patch, surface);
     if (explained < kMinExplained) return std::nullopt;
-    // Gated where the two overlap: at the wall's far end a turn adds to it.
+    // Gated where the two overlap: elsewhere, as at the middle of a wall that passes several rooms, a turn adds to it.
     const double middle = 0.5 * (from + to);
     const Eigen::Vector2d on_patch = patch.start + (middle - a0) / (a1 - a0) * (patch.end - patch.start);
     const double offset_m = n.head<2>().dot(on_patch - surface.start - middle * along);
+    if (std::abs(offset_m) > options_.far_offset_m) return std::nullopt;
     const WallDeviation deviation = DeviationOf(patch, MakeFace(frames_[surface.wall.index()], surface), yaw);
-    if (std::abs(offset_m) > options_.far_offset_m || std::abs(deviation.offset_m) > options_.far_offset_m) return std::nullopt;
     if (!IsProven(patch, surface, to - from)) return std::nullopt;
-    const double offset_sigmas = deviation.offset_m / options_.offset_tau1_m, yaw_sigmas = yaw / options_.yaw_tau1_rad;
+    const double offset_sigmas = offset_m / options_.offset_tau1_m, yaw_sigmas = yaw / options_.yaw_tau1_rad;
     return Found{index, {surface.wall, deviation}, 0.5 * (offset_sigmas * offset_sigmas + yaw_sigmas * yaw_sigmas) - std::log(explained)};
   }
 

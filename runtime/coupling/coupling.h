@@ -26,7 +26,7 @@ struct CouplingOptions {
   double planar_max_offset_m = 0.2;
   double max_yaw_rad = 0.35;
   // The same for walls that nothing is matched to within these gates, where lines of sight prove that they are not where planned
-  // (wall_search.h).
+  // (wall_search.h). The offset is that where the wall is least off: a long one that is turned ends metres off.
   double far_offset_m = 0.65, far_yaw_rad = 0.55;
   double max_level_offset_m = 0.25;   // the same for floors and ceilings
   double max_unknown_height_m = 1.3;  // of floors, where they fit another height better: below half a storey

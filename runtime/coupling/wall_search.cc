@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <optional>
+#include <utility>
 
 namespace plumb::runtime {
 namespace {
@@ -10,13 +12,13 @@ namespace {
 constexpr double kMinArea_m2 = 1.0;
 constexpr size_t kMinObservations = 2;
 constexpr double kMinLength_m = 1.0, kMinOverlapRatio = 0.5;
-constexpr double kMinExplained = 0.5;     // of the patch, by the face
-constexpr double kMinReach_m = 1.4;       // above the face's foot: most furniture that stands alone is lower
-constexpr size_t kMinLines = 20;          // that end on it, and that go through the planned place
-constexpr double kMinPassedRatio = 0.6;   // of those that meet the planned place
-constexpr double kBelowTop_m = 0.3;       // furniture up to a ceiling leaves this much
-constexpr double kMinClosed = 0.9;        // of the face's length, if the planned place cannot be seen
-constexpr double kRivalNats = 3;          // a candidate that is better by less is no better
+constexpr double kMinExplained = 0.5;                       // of the patch, by the face
+constexpr double kMinReach_m = 1.4;                         // above the face's foot: most furniture that stands alone is lower
+constexpr size_t kMinLines = 20;                            // that end on it, and that go through the planned place
+constexpr double kMinPassedRatio = 0.6;                     // of those that meet the planned place
+constexpr double kBelowTop_m = 0.3;                         // furniture up to a ceiling leaves this much
+constexpr double kMinClosed = 0.9;                          // of the face's length, if the planned place cannot be seen
+constexpr double kRivalNats = 3;                            // a candidate that is better by less is no better
 constexpr double kSameOffset_m = 0.15, kSameYaw_rad = 0.1;  // one wall's two faces tell the same to this
 
 struct Found {
@@ -33,11 +35,19 @@ WallDeviation DeviationOf(const Patch& patch, const Face& face, double yaw_rad) 
   return {n.dot(patch.midpoint() - turned) / n.dot(wall_normal), yaw_rad};
 }
 
+// Mean of exp(-x^2 / 2) from a to b: walls turn about any place in them.
+double MeanDensity(double a, double b) {
+  constexpr double kParallel = 1e-3, kLeast = 1e-30;
+  if (std::abs(b - a) < kParallel) return std::max(kLeast, std::exp(-0.5 * a * a));
+  const double integral = std::sqrt(0.5 * std::numbers::pi) * (std::erf(b / std::numbers::sqrt2) - std::erf(a / std::numbers::sqrt2));
+  return std::max(kLeast, integral / (b - a));
+}
+
 class Search {
  public:
-  Search(const std::vector<WallFrame>& frames, const std::vector<std::vector<WallOpening>>& openings, const SightLines& sight,
-         const CouplingOptions& options)
-      : frames_(frames), openings_(openings), sight_(sight), options_(options) {}
+  Search(const AGraph& plan, const std::vector<WallFrame>& frames, const std::vector<std::vector<WallOpening>>& openings,
+         const SightLines& sight, const CouplingOptions& options)
+      : plan_(plan), frames_(frames), openings_(openings), sight_(sight), options_(options) {}
 
   [[nodiscard]] std::optional<Found> Compare(size_t index, const Patch& patch, const Surface& surface) const {
     if (patch.num_observations < kMinObservations || patch.area < kMinArea_m2 || patch.z_max < surface.z_min_m + kMinReach_m)
@@ -53,18 +63,29 @@ class Search {
       return std::nullopt;
     const double explained = ExplainedRatio(patch, surface);
     if (explained < kMinExplained) return std::nullopt;
-    // Gated where the two overlap: at the wall's far end a turn adds to it.
-    const double middle = 0.5 * (from + to);
-    const Eigen::Vector2d on_patch = patch.start + (middle - a0) / (a1 - a0) * (patch.end - patch.start);
-    const double offset_m = n.head<2>().dot(on_patch - surface.start - middle * along);
+    // Gated where the wall is least off: a long one that is turned is off by more than a metre away from there.
+    const auto [a, b] = EndOffsets_m(patch, surface);
+    if (a * b > 0 && std::min(std::abs(a), std::abs(b)) > options_.far_offset_m) return std::nullopt;
     const WallDeviation deviation = DeviationOf(patch, MakeFace(frames_[surface.wall.index()], surface), yaw);
-    if (std::abs(offset_m) > options_.far_offset_m || std::abs(deviation.offset_m) > options_.far_offset_m) return std::nullopt;
     if (!IsProven(patch, surface, to - from)) return std::nullopt;
-    const double offset_sigmas = deviation.offset_m / options_.offset_tau1_m, yaw_sigmas = yaw / options_.yaw_tau1_rad;
-    return Found{index, {surface.wall, deviation}, 0.5 * (offset_sigmas * offset_sigmas + yaw_sigmas * yaw_sigmas) - std::log(explained)};
+    const double yaw_sigmas = yaw / options_.yaw_tau1_rad;
+    return Found{index,
+                 {surface.wall, deviation},
+                 0.5 * yaw_sigmas * yaw_sigmas - std::log(MeanDensity(a / options_.offset_tau1_m, b / options_.offset_tau1_m) * explained)};
   }
 
  private:
+  // How far the ends of the whole wall would be off along the surface's normal.
+  [[nodiscard]] std::pair<double, double> EndOffsets_m(const Patch& patch, const Surface& surface) const {
+    const Wall& wall = plan_.walls[surface.wall.index()];
+    const Eigen::Vector2d along = (surface.end - surface.start).normalized(), n = surface.normal.head<2>();
+    const Eigen::Vector2d step = (patch.end - patch.start) / along.dot(patch.end - patch.start);
+    const auto offset_m = [&](const Eigen::Vector2d& at) {
+      return n.dot(patch.start + along.dot(at - patch.start) * step - surface.start);
+    };
+    return {offset_m(wall.axis_start), offset_m(wall.axis_end)};
+  }
+
   [[nodiscard]] bool IsProven(const Patch& patch, const Surface& surface, double overlap_m) const {
     const std::vector<WallOpening>& openings = openings_[surface.wall.index()];
     if (IsSeenThrough(patch, surface, openings, sight_)) return false;
@@ -79,6 +100,7 @@ class Search {
     return closes && here.passed == 0 && planned.passed + planned.ended == 0;
   }
 
+  const AGraph& plan_;
   const std::vector<WallFrame>& frames_;
   const std::vector<std::vector<WallOpening>>& openings_;
   const SightLines& sight_;
@@ -103,7 +125,7 @@ bool HasRival(const Found& f, const std::vector<Found>& all) {
 std::vector<FarWall> FindFarWalls(const AGraph& plan, const std::vector<WallFrame>& frames, const std::vector<Patch>& unmatched,
                                   const std::vector<bool>& matched, const std::vector<std::vector<WallOpening>>& openings,
                                   const SightLines& sight, const CouplingOptions& options) {
-  const Search search(frames, openings, sight, options);
+  const Search search(plan, frames, openings, sight, options);
   std::vector<Found> found;
   for (const Surface& surface : plan.surfaces) {
     if (!surface.wall.valid() || matched[surface.wall.index()] || !IsFace(frames[surface.wall.index()], surface)) continue;

@@ -64,8 +64,8 @@ std::vector<SurfaceStatus> WallStatuses(const JointResult& estimate, const Devia
     const bool testable = MinimalDetectable_m(variance_m2) <= options.max_mdb_m;
     // A turn read off a short piece of a wall that may stand anywhere is no finding.
     const bool placed = testable || measured_m > two_sigma_m;
-    const bool a_box = std::abs(w.deviation.yaw_rad) >= options.turned_rad && w.observed_m2 < options.min_turned_m2 &&
-                       w.span_m < options.min_turned_m;
+    const bool a_box =
+        std::abs(w.deviation.yaw_rad) >= options.turned_rad && w.observed_m2 < options.min_turned_m2 && w.span_m < options.min_turned_m;
     const bool deviated = rejected[k] && large && w.p_deviated >= options.min_p_deviated && placed && !a_box;
     // Nor is a wall as planned whose evidence alone says that it is not.
     const bool tested = testable && measured_m + two_sigma_m <= options.max_undecided_m && !(rejected[k] && large);
@@ -91,6 +91,17 @@ SurfaceDeviation DeviationOfFace(const Face& face, const WallEstimate& wall, con
   out.p_deviated = wall.p_deviated;
   out.mdb_m = MinimalDetectable_m(TestVariance_m2(wall, gain.head<2>(), options));
   return out;
+}
+
+// Doorways that deviate from where a wall would have them that is not believed itself.
+void LeaveOutDoubtful(const AGraph& plan, const std::vector<const WallEstimate*>& by_wall, const std::vector<SurfaceStatus>& statuses,
+                      const JointResult& estimate, std::vector<DoorwayDeviation>& doorways) {
+  for (DoorwayDeviation& d : doorways) {
+    const WallId wall = plan.doorways[d.doorway.index()].wall;
+    if (d.status != DoorwayStatus::kDeviated || !wall.valid() || !by_wall[wall.index()]) continue;
+    const auto at = static_cast<size_t>(by_wall[wall.index()] - estimate.walls.data());
+    if (statuses[at] == SurfaceStatus::kUnobserved) d = {.doorway = d.doorway};
+  }
 }
 
 // A wall that is not there has no deviation, only the evidence that it is not.
@@ -143,10 +154,16 @@ std::string DeviationOptions::Check() const {
   }
   if (!(min_p_deviated >= 0 && min_p_deviated <= 1))
     return fmt::format("DeviationOptions.min_p_deviated = {}; must be in [0, 1]", min_p_deviated);
-  const std::pair<const char*, double> magnitudes[] = {{"tolerance_offset_m", tolerance_offset_m}, {"tolerance_yaw_rad", tolerance_yaw_rad},
-      {"min_offset_m", min_offset_m}, {"min_yaw_rad", min_yaw_rad}, {"min_observed_m2", min_observed_m2}, {"max_mdb_m", max_mdb_m},
-      {"max_undecided_m", max_undecided_m}, {"turned_rad", turned_rad}, {"min_turned_m2", min_turned_m2},
-      {"min_turned_m", min_turned_m}};
+  const std::pair<const char*, double> magnitudes[] = {{"tolerance_offset_m", tolerance_offset_m},
+                                                       {"tolerance_yaw_rad", tolerance_yaw_rad},
+                                                       {"min_offset_m", min_offset_m},
+                                                       {"min_yaw_rad", min_yaw_rad},
+                                                       {"min_observed_m2", min_observed_m2},
+                                                       {"max_mdb_m", max_mdb_m},
+                                                       {"max_undecided_m", max_undecided_m},
+                                                       {"turned_rad", turned_rad},
+                                                       {"min_turned_m2", min_turned_m2},
+                                                       {"min_turned_m", min_turned_m}};
   for (const auto& [name, value] : magnitudes) {
     if (!(value >= 0)) return fmt::format("DeviationOptions.{} = {}; must be >= 0", name, value);
   }
@@ -187,6 +204,7 @@ DeviationReport AssessDeviations(const AGraph& plan, const JointResult& estimate
   MarkMissing(plan, changes, report);
   report.unplanned = changes.unplanned;
   report.doorways = changes.doorways;
+  LeaveOutDoubtful(plan, by_wall, statuses, estimate, report.doorways);
   for (size_t i = report.doorways.size(); i < plan.doorways.size(); ++i) report.doorways.push_back({.doorway = DoorwayId(i)});
   if (!report.gauge.empty()) report.gauge += CountsText(plan, report);
   for (size_t r = 0; r < plan.rooms.size(); ++r) report.rooms.push_back(DeviationOfRoom(plan, RoomId(r), report.surfaces, options));

@@ -17,17 +17,17 @@ enum class SurfaceStatus : uint8_t { kAsPlanned, kDeviated, kMissing, kUnobserve
 [[nodiscard]] const char* StatusName(SurfaceStatus status);  // as_planned | deviated | missing | unobserved
 
 struct DeviationOptions {
-  double false_discovery_rate = 0.01;   // Benjamini-Hochberg over the observed walls
-  double tolerance_offset_m = 0.005;    // construction tolerance (standard deviation) that the test allows for
+  double false_discovery_rate = 0.01;  // Benjamini-Hochberg over the observed walls
+  double tolerance_offset_m = 0.005;   // construction tolerance (standard deviation) that the test allows for
   double tolerance_yaw_rad = 0.0035;
-  double min_offset_m = 0.02;           // smaller deviations are as planned, however certain
+  double min_offset_m = 0.02;  // smaller deviations are as planned, however certain
   double min_yaw_rad = 0.0087;
-  double min_observed_m2 = 0.5;         // less, over all faces of a wall, was not seen well enough to judge
+  double min_observed_m2 = 0.5;                     // less, over all faces of a wall, was not seen well enough to judge
   double turned_rad = 0.0873, min_turned_m2 = 1.0;  // ... nor was a wall turned so far: boxes have faces of that size at any angle, ...
-  double min_turned_m = 1.5;            // ... but are not so long
-  double min_p_deviated = 0.97;         // three in a hundred of those reported may be wrong
-  double max_mdb_m = 0.2;               // a wall of which only larger deviations would have been found was not tested; ...
-  double max_undecided_m = 0.1;         // ... nor one that may be so far off by what was seen (95 %), whatever is likely beforehand
+  double min_turned_m = 1.5;                        // ... but are not so long
+  double min_p_deviated = 0.97;                     // three in a hundred of those reported may be wrong
+  double max_mdb_m = 0.2;                           // a wall of which only larger deviations would have been found was not tested; ...
+  double max_undecided_m = 0.1;  // ... nor one that may be so far off by what was seen (95 %), whatever is likely beforehand
   PresenceOptions presence;
   UnplannedOptions unplanned;
   DoorwayOptions doorways;
@@ -42,8 +42,8 @@ struct SurfaceDeviation {
   double tilt_rad = 0;                                // + the normal turns upwards
   double p_deviated = 0;
   double mdb_m = std::numeric_limits<double>::infinity();  // minimal detectable deviation: what the test would find with 80 % (alpha 0.1 %)
-  double observed_m2 = 0;                             // of this surface alone; missing: of its place
-  double points = 0;                                  // missing: of those seen through it
+  double observed_m2 = 0;                                  // of this surface alone; missing: of its place
+  double points = 0;                                       // missing: of those seen through it
 };
 
 // Rigid motion of the room in the plane, about its centre: what its walls moved, all in all.
@@ -67,7 +67,7 @@ struct DeviationReport {
 struct WallChanges {
   std::vector<WallPresence> presence;  // per plan wall; empty: not judged
   std::vector<UnplannedWall> unplanned;
-  std::vector<bool> on_other_shape = {};  // per plan wall (planned_shapes.h); empty: not judged
+  std::vector<bool> on_other_shape = {};        // per plan wall (planned_shapes.h); empty: not judged
   std::vector<DoorwayDeviation> doorways = {};  // per plan doorway; empty: not judged
   [[nodiscard]] bool IsMissing(WallId wall) const {
     return wall.valid() && wall.index() < presence.size() && presence[wall.index()].missing;
@@ -80,7 +80,8 @@ struct WallChanges {
 // neither it nor a deviation of max_mdb_m could have been told, or what was seen leaves one of max_undecided_m possible, the wall is
 // unobserved, however much of it was seen. So is a wall that was hardly seen and seems to have turned as boxes do, and a wall off its face
 // whose shape is as planned: what was seen there is in the plan, but is not this face. The faces of a wall that `changes` calls missing are
-// missing, whatever the estimate. The gauge says how many walls deviate and are missing.
+// missing, whatever the estimate. A doorway that deviates from where a wall would have it that is not believed itself is unobserved. The
+// gauge says how many walls deviate and are missing.
 [[nodiscard]] DeviationReport AssessDeviations(const AGraph& plan, const JointResult& estimate, const DeviationOptions& options = {},
                                                const WallChanges& changes = {});
 

@@ -14,14 +14,15 @@
 #include "runtime/optimization/built_tolerance.h"
 #include "runtime/optimization/joint_problem.h"
 #include "runtime/optimization/level_votes.h"
+#include "runtime/optimization/patch_agreement.h"
 #include "runtime/optimization/place_seed.h"
+#include "runtime/optimization/seen_walls.h"
 #include "runtime/optimization/wall_measurement.h"
 
 namespace plumb::runtime {
 namespace {
 
 constexpr double kSettled = 0.01;      // responsibilities that change less end the EM rounds
-constexpr double kSameSide = 0.9;      // cosine between normals of faces of one side of a wall
 constexpr double kNoThickness = 1e-3;  // of its prior: as good as none
 
 std::string CheckInput(const SGraph& map, const AGraph& plan, const std::vector<WallFrame>& frames, const std::vector<Match>& matches,
@@ -91,14 +92,16 @@ class Optimizer {
       const double change = ExpectationStep(*problem);
       if (round > 1 && change < kSettled) break;
       result.em_rounds = round + 1;
-      if (!Solve(*problem, result)) return result;
+      if (Solve(*problem, result)) continue;
+      if (round == 0) return result;
+      break;
     }
     if (options_.covariances && options_.fit_tolerance && schedule_.consensus) {
       FitTolerance();
       problem.reset();  // it holds the state
       problem.emplace(map_, plan_, frames_, matches_, fitted_, state_);
       ExpectationStep(*problem);
-      if (!Solve(*problem, result)) return result;
+      Solve(*problem, result);
     }
     Report(options_.covariances ? problem->Covariances() : std::nullopt, result);
     return result;
@@ -111,7 +114,7 @@ class Optimizer {
     state_.place[2] -= ConsensusHeight(LevelVotes(map_, plan_, matches_, Poses(state_), Place()), options_.level_sigma_m);
   }
 
-  // False if the result is of no use.
+  // False if it came to nothing: the state stays as it was, which after a first solve is a good one.
   bool Solve(JointProblem& problem, JointResult& result) {
     const JointProblem::Outcome outcome = problem.Solve();
     result.iterations += outcome.iterations;
@@ -189,10 +192,21 @@ class Optimizer {
     walls_alone.place_sigma_m = JointOptions().place_sigma_m;
     const std::vector<RivalPlace> rivals =
         asks_walls ? RivalPlaces(measurements_, frames_, Place(), walls_alone) : std::vector<RivalPlace>();
-    for (size_t w = 0; w < state_.walls.size(); ++w) result.walls.push_back(Estimate(w, covariances, rivals));
-    CountSeen(result.walls);
+    const std::map<WallId, PatchDisagreement> disagreements = asks_walls ? Disagreements() : std::map<WallId, PatchDisagreement>();
+    for (size_t w = 0; w < state_.walls.size(); ++w) {
+      const auto at = disagreements.find(state_.wall_ids[w]);
+      result.walls.push_back(Estimate(w, covariances, rivals, at == disagreements.end() ? nullptr : &at->second));
+    }
+    CountSeen(map_, plan_, frames_, matches_, Place(), result.walls);
     result.directions = SupportByDirection(measurements_, frames_, state_.bias_m, options_.coupling);
     result.gauge = GaugeText(result);
+  }
+
+  [[nodiscard]] std::map<WallId, PatchDisagreement> Disagreements() const {
+    std::map<WallId, Eigen::Vector2d> estimates;
+    for (size_t w = 0; w < state_.walls.size(); ++w)
+      estimates[state_.wall_ids[w]] = {state_.walls[w][kWallOffset], state_.walls[w][kWallYaw]};
+    return FindDisagreements(map_, plan_, frames_, matches_, Poses(state_), Place(), estimates, state_.bias_m, options_);
   }
 
   // The estimated place and its rivals, as this wall would be measured there.
@@ -205,7 +219,8 @@ class Optimizer {
     return out;
   }
 
-  WallEstimate Estimate(size_t w, const std::optional<JointCovariances>& covariances, const std::vector<RivalPlace>& rivals) const {
+  WallEstimate Estimate(size_t w, const std::optional<JointCovariances>& covariances, const std::vector<RivalPlace>& rivals,
+                        const PatchDisagreement* disagreement) const {
     WallEstimate e;
     e.wall = state_.wall_ids[w];
     e.reference = frames_[e.wall.index()].reference;
@@ -226,6 +241,7 @@ class Optimizer {
     if (held()) return e;
     const Eigen::Vector2d estimate(e.deviation.offset_m, e.deviation.yaw_rad);
     e.evidence = WithoutPrior(estimate, e.cov, priors_[w], options_.coupling);
+    if (disagreement) e.evidence = {disagreement->mean, disagreement->variance_ratio * e.evidence.covariance};
     const std::vector<MeasuredElsewhere> places = Places(w, rivals);
     for (const MeasuredElsewhere& place : places) e.place_sigma_m += place.probability * place.shift.x() * place.shift.x();
     e.place_sigma_m = std::sqrt(e.place_sigma_m);
@@ -238,81 +254,6 @@ class Optimizer {
     e.cov_all = widen.asDiagonal() * e.cov_all * widen.asDiagonal();
     e.cov = e.cov_all.topLeftCorner<2, 2>();
     return e;
-  }
-
-  // Of the points of a match's patch, those that say something of its wall.
-  [[nodiscard]] double ShareThatCounts(const Match& m) const {
-    const std::vector<Observation>& observations = map_.surfaces[m.map_surface].observations;
-    double counts = 0, all = 0;
-    for (size_t i = 0; i < observations.size(); ++i) {
-      all += observations[i].stats.count();
-      if (!m.IsMistaken(i)) counts += observations[i].stats.count();
-    }
-    return all > 0 ? counts / all : 0;
-  }
-
-  // Rooms divide one side of a wall into several faces: how much of a match's patch lies on each. The shares add up to one.
-  [[nodiscard]] std::vector<std::pair<SurfaceId, double>> SharesOfFaces(const Match& m) const {
-    const Surface& matched = plan_.surfaces[m.plan_surface.index()];
-    const MapSurface& patch = map_.surfaces[m.map_surface];
-    const Eigen::Vector2d along = (matched.end - matched.start).normalized();
-    const auto u = [&](const Eigen::Vector2d& at) { return along.dot((Place() * Eigen::Vector3d(at.x(), at.y(), 0)).head<2>()); };
-    const auto [from, to] = std::minmax({u(patch.start), u(patch.end)});
-    std::vector<std::pair<SurfaceId, double>> shares;
-    double total_m = 0;
-    for (size_t i = 0; i < plan_.surfaces.size() && !matched.arc; ++i) {
-      const Surface& face = plan_.surfaces[i];
-      if (face.wall != matched.wall || face.storey != matched.storey || face.arc || face.normal.dot(matched.normal) < kSameSide) continue;
-      const double common_m = std::min(to, along.dot(face.end)) - std::max(from, along.dot(face.start));
-      if (common_m <= 0) continue;
-      shares.emplace_back(SurfaceId(i), common_m);
-      total_m += common_m;
-    }
-    if (shares.empty()) return {{m.plan_surface, 1.0}};
-    for (auto& [face, share] : shares) share /= total_m;
-    return shares;
-  }
-
-  void CountSeen(std::vector<WallEstimate>& walls) const {
-    std::map<SurfaceId, SeenSurface> seen;
-    std::map<WallId, std::pair<double, double>> spans;
-    for (const Match& m : matches_) {
-      if (!m.plan_surface.valid()) continue;
-      const double counts = m.mistaken.empty() ? 1.0 : ShareThatCounts(m);
-      for (const auto& [face, share] : SharesOfFaces(m)) {
-        SeenSurface& s = seen[face];
-        s.surface = face;
-        s.num_points += counts * share * map_.surfaces[m.map_surface].num_points;
-        s.observed_m2 += counts * share * map_.surfaces[m.map_surface].area_m2;
-      }
-      AddSpan(m, spans);
-    }
-    for (const auto& [id, s] : seen) {
-      const WallId wall = plan_.surfaces[id.index()].wall;
-      WallEstimate& e = *std::lower_bound(walls.begin(), walls.end(), wall, [](const WallEstimate& a, WallId b) { return a.wall < b; });
-      e.seen.push_back(s);
-      e.num_points += s.num_points;
-      e.observed_m2 += s.observed_m2;
-      e.span_m = spans[wall].second - spans[wall].first;
-    }
-  }
-
-  // From where to where along its wall the match's patch reaches, within the face: it may go on along the next wall.
-  void AddSpan(const Match& m, std::map<WallId, std::pair<double, double>>& spans) const {
-    const MapSurface& patch = map_.surfaces[m.map_surface];
-    const WallId wall = plan_.surfaces[m.plan_surface.index()].wall;
-    const WallFrame& frame = frames_[wall.index()];
-    auto& [from, to] = spans.try_emplace(wall, 1e300, -1e300).first->second;
-    const Surface& face = plan_.surfaces[m.plan_surface.index()];
-    const auto along = [&](const Eigen::Vector2d& at) {
-      return (at - frame.pivot.head<2>()).dot(Eigen::Vector2d(-frame.normal.y(), frame.normal.x()));
-    };
-    const auto [face_from, face_to] = std::minmax({along(face.start), along(face.end)});
-    for (const Eigen::Vector2d& end : {patch.start, patch.end}) {
-      const double u = std::clamp(along((Place() * Eigen::Vector3d(end.x(), end.y(), 0)).head<2>()), face_from, face_to);
-      from = std::min(from, u);
-      to = std::max(to, u);
-    }
   }
 
   std::string GaugeText(const JointResult& result) const {

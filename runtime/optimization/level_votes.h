@@ -20,10 +20,12 @@ struct LevelVote {
   bool floor = true;
   double planned_z_m = 0;
   double error_m = 0;  // how much higher than planned it lies; mean over its points
-  double share = 1;    // of its room's floor (ceiling), by points: however many pieces one was seen in, it has one vote
+  // Of a room's floor (ceiling), by points, summed over the rooms that it goes on through: a room has one vote, in however many pieces its
+  // floor was seen, and a step in a room has little of it.
+  double share = 1;
 };
 
-// In the order of the matches, those of walls left out.
+// In the order of the matches, those of walls left out. O(views * rooms).
 [[nodiscard]] std::vector<LevelVote> LevelVotes(const SGraph& map, const AGraph& plan, const std::vector<Match>& matches,
                                                 const std::vector<Eigen::Isometry3d>& T_map_kf, const Eigen::Isometry3d& T_plan_map);
 

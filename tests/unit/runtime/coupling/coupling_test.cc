@@ -216,6 +216,23 @@ TEST(MatchSurfaces, FindsAWallFarOffWhereItsPlannedPlaceIsSeenThrough) {
   }
 }
 
+// The south wall passes two rooms: turned about a place in either, it stands metres off elsewhere, at its middle or where it is seen.
+TEST(MatchSurfaces, FindsAWallFarTurnedAboutAnyPlaceInIt) {
+  const AGraph house = test::MakeHouse();
+  for (const auto& [about_x, turn_deg] : {std::pair{7.5, 27.0}, std::pair{0.5, -9.0}}) {
+    const auto at = [x0 = about_x, slope = std::tan(turn_deg * kDeg)](double x) { return Eigen::Vector2d(x, slope * (x - x0)); };
+    Scene scene;
+    const uint32_t patch = scene.Add(at(5.6), at(8.4), 0.1, 2.5);
+    scene.map.surfaces[patch].observations.push_back(scene.map.surfaces[patch].observations.front());
+    scene.See({7, 3, 0.6}, at(5.6), at(8.4), 0.1, 2.5);
+    scene.See({6.5, 4, 0.6}, at(5.6), at(8.4), 0.1, 2.5);
+    const SurfaceId found = scene.Of(house, patch);
+    ASSERT_TRUE(found.valid()) << about_x;
+    EXPECT_EQ(house.walls[house.surfaces[found.index()].wall.index()].guid, "wall-south");
+    EXPECT_GT(house.surfaces[found.index()].midpoint().x(), 5);
+  }
+}
+
 TEST(MatchSurfaces, FindsNoWallFarOffWhereTwoStandForIt) {
   const AGraph house = test::MakeHouse();
   Scene scene;

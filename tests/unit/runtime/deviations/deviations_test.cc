@@ -127,6 +127,19 @@ TEST(AssessDeviations, ASmallFaceAtAnAngleIsABoxAndNoWall) {
   EXPECT_EQ(status(0.2, 1.2), SurfaceStatus::kDeviated);
 }
 
+TEST(AssessDeviations, ADoorwayInAWallThatIsABoxIsNotJudged) {
+  AGraph house = test::MakeHouse();
+  house.doorways[0].wall = WallId(kEast);
+  WallChanges changes;
+  changes.doorways = {{.doorway = DoorwayId(0), .status = DoorwayStatus::kDeviated, .width_deviation_m = 0.1, .p_deviated = 1}};
+  const auto status = [&](double observed_m2) {
+    const JointResult estimate = EstimateOfEastWall(house, {0.03, 0.2}, Eigen::Matrix2d::Identity() * 1e-6, observed_m2);
+    return AssessDeviations(house, estimate, {}, changes).doorways[0].status;
+  };
+  EXPECT_EQ(status(0.7), DoorwayStatus::kUnobserved);
+  EXPECT_EQ(status(1.2), DoorwayStatus::kDeviated);
+}
+
 TEST(AssessDeviations, FewViewsAlongMoreThanABoxAreOfAWall) {
   const AGraph house = test::MakeHouse();
   JointResult estimate = EstimateOfEastWall(house, {0.03, 0.2}, Eigen::Matrix2d::Identity() * 1e-6, 0.7);

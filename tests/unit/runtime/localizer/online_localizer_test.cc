@@ -99,6 +99,43 @@ TEST(OnlineLocalizer, AnswersARequestWithoutChangingTheResult) {
   EXPECT_TRUE(judged(of_itself.back()));
 }
 
+// The house with the faces of one wall off its triangles: what is seen there is in the plan, but is not these faces.
+AGraph HouseWithFacesOff(WallId wall) {
+  AGraph plan = test::MakeHouse();
+  for (Surface& s : plan.surfaces) {
+    if (s.wall != wall) continue;
+    const Eigen::Vector2d shift(0.06, 0);
+    s.start += shift;
+    s.end += shift;
+    s.d_m -= s.normal.head<2>().dot(shift);
+  }
+  return plan;
+}
+
+TEST(OnlineLocalizer, LeavesOutOtherShapesOfThePlanOnRequestAsInTheEnd) {
+  const AGraph house = test::MakeHouse();
+  const auto middle =
+      std::find_if(house.walls.begin(), house.walls.end(), [](const Wall& w) { return w.guid == "wall-middle"; }) - house.walls.begin();
+  const AGraph plan = HouseWithFacesOff(WallId(static_cast<size_t>(middle)));
+  LocalizerOptions options;
+  std::vector<EstimateUpdate> told;
+  options.on_update = [&](const EstimateUpdate& update) { told.push_back(update); };
+  Localizer localizer(plan, options);
+  for (const Scan& scan : HouseScans(house, 100)) {
+    if (scan.stamp_s > 9.85) localizer.RequestUpdate();
+    (void)localizer.AddScan(scan, std::nullopt);
+  }
+  localizer.Finish();
+  ASSERT_EQ(told.size(), 1u);
+  ASSERT_EQ(told[0].verdict, Verdict::kLocalized);
+  const DeviationReport end = localizer.Deviations();
+  for (size_t i = 0; i < plan.surfaces.size(); ++i) {
+    const SurfaceDeviation& then = told[0].deviations.surfaces[i];
+    EXPECT_EQ(then.status, end.surfaces[i].status) << i;
+    EXPECT_NEAR(then.translation_m, end.surfaces[i].translation_m, 0.002) << i;
+  }
+}
+
 TEST(UpdateToJson, TellsOfEachSurfaceOnceUntilItChanges) {
   EstimateUpdate update;
   update.stamp_s = 12.5;

@@ -50,6 +50,29 @@ TEST(LevelVotes, EachRoomsFloorHasOneVoteInHoweverManyPieces) {
   EXPECT_NEAR(votes.front().share, 0.5, 1e-12);
 }
 
+// One floor through all rooms was matched to one of them; in the others a step was seen besides.
+TEST(LevelVotes, AFloorThatGoesOnThroughRoomsHasTheVotesOfAllOfThem) {
+  const AGraph house = test::MakeHouse();
+  test::Drive drive = test::DriveThroughHouse(house);
+  std::vector<Eigen::Isometry3d> T_map_kf;
+  for (const Keyframe& k : drive.map.keyframes) T_map_kf.push_back(k.T_map_kf);
+  std::vector<Match> matches;
+  for (const Match& m : MatchSurfaces(drive.map, house, drive.T_plan_map, {})) {
+    if (!m.plan_surface.valid()) matches.push_back(m);
+  }
+  ASSERT_EQ(matches.size(), house.rooms.size());
+  MapSurface& floor = drive.map.surfaces[matches.front().map_surface];
+  for (size_t i = 1; i < matches.size(); ++i) {
+    MapSurface& step = drive.map.surfaces[matches[i].map_surface];
+    floor.observations.insert(floor.observations.end(), step.observations.begin(), step.observations.end());
+    for (Observation& o : step.observations) o.stats.C = 0.01 * o.stats.Transformed(Eigen::Isometry3d(Eigen::Translation3d(0, 0, 0.1))).C;
+  }
+  const std::vector<LevelVote> votes = LevelVotes(drive.map, house, matches, T_map_kf, drive.T_plan_map);
+  ASSERT_EQ(votes.size(), matches.size());
+  EXPECT_NEAR(votes.front().share, static_cast<double>(house.rooms.size()), 0.05);
+  EXPECT_NEAR(ConsensusHeight(votes, 0.015), 0, 0.02);
+}
+
 TEST(ConsensusHeight, FollowsTheMajorityOfTheFloors) {
   EXPECT_EQ(ConsensusHeight({}, 0.015), 0);
   EXPECT_NEAR(ConsensusHeight({Vote(true, 0.01), Vote(true, 0.011), Vote(true, 0.2)}, 0.015), 0.01, 0.002);

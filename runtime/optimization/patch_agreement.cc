@@ -1,0 +1,65 @@
+#include "runtime/optimization/patch_agreement.h"
+
+#include <Eigen/LU>
+#include <cmath>
+
+namespace plumb::runtime {
+namespace {
+
+constexpr double kLetGo = 3;  // of the loss's scale: Cauchy's weight is a tenth there
+
+// What one patch says of its wall.
+struct Said {
+  Eigen::Vector2d deviation;
+  Eigen::Matrix2d information;
+};
+
+// What a chi-square exceeds with 1 % (Wilson and Hilferty).
+double ChiSquareLimit(double freedom) {
+  const double spread = 2 / (9 * freedom);
+  return freedom * std::pow(1 - spread + 2.3263 * std::sqrt(spread), 3);
+}
+
+PatchDisagreement Compare(const std::vector<Said>& patches) {
+  Eigen::Matrix2d information = Eigen::Matrix2d::Zero();
+  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  for (const Said& p : patches) {
+    information += p.information;
+    sum += p.information * p.deviation;
+  }
+  PatchDisagreement out;
+  out.mean = information.inverse() * sum;
+  double chi_square = 0;
+  for (const Said& p : patches) chi_square += (p.deviation - out.mean).dot(p.information * (p.deviation - out.mean));
+  const double freedom = 2.0 * static_cast<double>(patches.size() - 1);
+  out.variance_ratio = chi_square > ChiSquareLimit(freedom) ? chi_square / freedom : 1.0;
+  return out;
+}
+
+}  // namespace
+
+std::map<WallId, PatchDisagreement> FindDisagreements(const SGraph& map, const AGraph& plan, const std::vector<WallFrame>& frames,
+                                                      const std::vector<Match>& matches, const std::vector<Eigen::Isometry3d>& T_map_kf,
+                                                      const Eigen::Isometry3d& T_plan_map,
+                                                      const std::map<WallId, Eigen::Vector2d>& estimates, double bias_m,
+                                                      const JointOptions& options) {
+  const double reach = kLetGo * options.observation_loss;
+  std::map<WallId, std::vector<Said>> walls;
+  for (const Match& match : matches) {
+    if (!match.plan_surface.valid()) continue;
+    for (const WallMeasurement& m : MeasureWalls(map, plan, frames, {match}, T_map_kf, T_plan_map, options)) {
+      const Said said{m.At(bias_m), m.covariance.inverse()};
+      const Eigen::Vector2d off = said.deviation - estimates.at(m.wall);
+      const auto views = static_cast<double>(map.surfaces[match.map_surface].observations.size() - match.mistaken.size());
+      if (off.dot(said.information * off) <= reach * reach * views) walls[m.wall].push_back(said);
+    }
+  }
+  std::map<WallId, PatchDisagreement> out;
+  for (const auto& [wall, patches] : walls) {
+    if (patches.size() < 2) continue;
+    if (const PatchDisagreement d = Compare(patches); d.variance_ratio > 1) out.emplace(wall, d);
+  }
+  return out;
+}
+
+}  // namespace plumb::runtime

@@ -1,0 +1,77 @@
+#include "runtime/optimization/patch_agreement.h"
+
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "tests/support/house.h"
+#include "tests/support/synthetic_sgraph.h"
+
+namespace plumb::runtime {
+namespace {
+
+constexpr double kDeg = std::numbers::pi / 180;
+const WallId kMiddle(4);
+
+// A drive through the house as planned, where it lies. Both sides of the middle wall were seen.
+struct House {
+  AGraph plan = test::MakeHouse();
+  test::Drive drive = test::DriveThroughHouse(plan);
+  std::vector<Match> matches;
+  std::vector<Eigen::Isometry3d> T_map_kf;
+  std::vector<uint32_t> of_middle;  // map surfaces
+
+  House() {
+    for (size_t k = 0; k < drive.T_plan_kf.size(); ++k) T_map_kf.push_back(drive.T_plan_map.inverse() * drive.T_plan_kf[k]);
+    for (uint32_t i = 0; i < drive.built.size(); ++i) {
+      if (!drive.built[i].valid()) continue;
+      matches.push_back({i, drive.built[i], {}, 0, 0, {}});
+      if (plan.surfaces[drive.built[i].index()].wall == kMiddle) of_middle.push_back(i);
+    }
+  }
+  // What was seen of a surface, turned about its middle and moved along +x of the plan.
+  void Lean(uint32_t surface, double yaw_rad, double x_m) {
+    for (Observation& o : drive.map.surfaces[surface].observations) {
+      const Eigen::Isometry3d& T = drive.T_plan_kf[o.keyframe];
+      const Eigen::Vector3d middle = T * o.stats.centroid();
+      const Eigen::Isometry3d moved = Eigen::Translation3d(middle + Eigen::Vector3d(x_m, 0, 0)) *
+                                      Eigen::AngleAxisd(yaw_rad, Eigen::Vector3d::UnitZ()) * Eigen::Translation3d(-middle);
+      o.stats = o.stats.Transformed(T.inverse() * moved * T);
+    }
+  }
+  [[nodiscard]] std::map<WallId, PatchDisagreement> Disagreements(const Eigen::Vector2d& estimate_of_middle) const {
+    std::map<WallId, Eigen::Vector2d> estimates;
+    for (size_t w = 0; w < plan.walls.size(); ++w) estimates[WallId(w)] = Eigen::Vector2d::Zero();
+    estimates[kMiddle] = estimate_of_middle;
+    return FindDisagreements(drive.map, plan, WallFrames(plan), matches, T_map_kf, drive.T_plan_map, estimates, 0, JointOptions());
+  }
+};
+
+TEST(FindDisagreements, WallsSeenAsTheyAreAgreeWithThemselves) { EXPECT_TRUE(House().Disagreements(Eigen::Vector2d::Zero()).empty()); }
+
+TEST(FindDisagreements, AWallThatDeviatesOnAllSidesAgreesWithItself) {
+  House house;
+  for (const uint32_t i : house.of_middle) house.Lean(i, 0, 0.05);
+  EXPECT_TRUE(house.Disagreements(Eigen::Vector2d::Zero()).empty());
+}
+
+TEST(FindDisagreements, APatchThatLeansMakesItsWallUnsure) {
+  House house;
+  ASSERT_GE(house.of_middle.size(), 2u);
+  house.Lean(house.of_middle.front(), 2 * kDeg, 0);
+  const auto found = house.Disagreements(Eigen::Vector2d(0, 2 * kDeg));
+  ASSERT_EQ(found.size(), 1u);
+  ASSERT_EQ(found.begin()->first, kMiddle);
+  EXPECT_GT(found.begin()->second.variance_ratio, 4);
+  EXPECT_GT(found.begin()->second.mean.y(), 0.2 * kDeg);
+  EXPECT_LT(found.begin()->second.mean.y(), 1.8 * kDeg);
+}
+
+TEST(FindDisagreements, APatchThatTheSolveHasLetGoOfIsNotAsked) {
+  House house;
+  house.Lean(house.of_middle.front(), 0, 0.4);
+  EXPECT_TRUE(house.Disagreements(Eigen::Vector2d::Zero()).empty());
+}
+
+}  // namespace
+}  // namespace plumb::runtime

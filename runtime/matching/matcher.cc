@@ -18,6 +18,9 @@ namespace plumb::runtime {
 namespace {
 
 constexpr size_t kCoarseRays = 500;
+constexpr size_t kNearbyRays = 2000;  // enough to tell 0.3 m from 0
+constexpr int kNearbyDirections = 8;
+constexpr int kLeastPlanes = 3;  // with fewer no place is accepted
 constexpr int kFinalistsPerKept = 2;
 constexpr size_t kAliasedFinalists = 8;
 constexpr double kSensorHeights_m[] = {0.3, 0.6, 0.9, 1.2, 1.5};
@@ -58,11 +61,28 @@ class PoseSearch {
     return best;
   }
 
+  // Candidate::lead_nearby.
+  [[nodiscard]] double LeadNearby(const MapView& map, const PlanarPose& pose) const {
+    std::vector<PlanarPose> others;
+    for (const double distance_m : {options.nearby_m, 2 * options.nearby_m, 4 * options.nearby_m}) {
+      for (int i = 0; i < kNearbyDirections; ++i) {
+        const double angle_rad = 2 * std::numbers::pi * i / kNearbyDirections;
+        others.push_back(pose);
+        others.back().t_m += distance_m * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
+      }
+    }
+    for (const int turns : {-2, -1, 1, 2}) {
+      others.push_back(pose);
+      others.back().yaw_rad += turns * options.nearby_yaw_rad;
+    }
+    return LeadOver(plan, map, pose, others, options, Stride(map, kNearbyRays));
+  }
+
   const PlanIndex plan;
   const MatcherOptions options;
 
  private:
-  [[nodiscard]] size_t CoarseStride(const MapView& map) const { return std::max<size_t>(1, map.rays.size() / kCoarseRays); }
+  [[nodiscard]] static size_t Stride(const MapView& map, size_t num_rays) { return std::max<size_t>(1, map.rays.size() / num_rays); }
 
   [[nodiscard]] StoreyId StoreyAt(const MapView& map, double z_m) const {
     const double floor_z_m = (map.floor_z_m ? *map.floor_z_m : map.sensor_z_m - 0.6) + z_m;
@@ -106,7 +126,7 @@ class PoseSearch {
   // Refined and judged by a few rays.
   [[nodiscard]] std::vector<Candidate> Judged(const MapView& map, const std::vector<PlanarPose>& poses, const StartHint& hint) const {
     std::vector<Candidate> candidates(poses.size());
-    const size_t stride = CoarseStride(map);
+    const size_t stride = Stride(map, kCoarseRays);
     oneapi::tbb::parallel_for(size_t{0}, poses.size(), [&](size_t i) {
       const WallFit fit = RefineOnWalls(plan, map, poses[i]);
       if (fit.pairs.empty()) return;
@@ -149,6 +169,8 @@ std::string MatcherOptions::Check() const {
   if (!(hint_tie_nats >= 0)) return bad("hint_tie_nats", hint_tie_nats, "at least 0");
   if (!(accept_sigma_xy_m > 0)) return bad("accept_sigma_xy_m", accept_sigma_xy_m, "positive");
   if (!(accept_sigma_yaw_rad > 0)) return bad("accept_sigma_yaw_rad", accept_sigma_yaw_rad, "positive");
+  if (!(nearby_m > 0)) return bad("nearby_m", nearby_m, "positive");
+  if (!(nearby_yaw_rad > 0)) return bad("nearby_yaw_rad", nearby_yaw_rad, "positive");
   if (accept_min_planes < 3) return bad("accept_min_planes", accept_min_planes, "at least 3");
   if (!(accept_min_consistent_ratio >= 0 && accept_min_consistent_ratio <= 1)) {
     return bad("accept_min_consistent_ratio", accept_min_consistent_ratio, "in [0, 1]");
@@ -201,11 +223,16 @@ MatchResult Matcher::Match(const SGraph& map, const StartHint& hint) const {
     result.reason = "the map has fewer than two walls";
     return result;
   }
-  const std::vector<Candidate> finalists = search.Finalists(view, hint);
+  std::vector<Candidate> finalists = search.Finalists(view, hint);
   const AGraph& plan = search.plan.plan();
   WrongPlans wrong;
-  if (!finalists.empty() && !WallsTellScale(finalists.front().fit, search.options))
-    wrong.scaled = search.ScaledLikelihood(view, finalists.front());
+  if (!finalists.empty()) {
+    Candidate& best = finalists.front();
+    if (!WallsTellScale(best.fit, search.options)) wrong.scaled = search.ScaledLikelihood(view, best);
+    if (best.fit.consistent_planes >= kLeastPlanes && !WallsFixPlace(best.fit, search.options)) {
+      best.lead_nearby = search.LeadNearby(view, best.fit.pose);
+    }
+  }
   result = Decide(finalists, view, plan, search.options, wrong);
   if (result.verdict != MatchResult::Verdict::kUnique) return result;
   wrong.mirrored = impl_->MirroredLikelihood(view, finalists.front().fit);

@@ -13,6 +13,7 @@
 #include "runtime/matching/hypotheses.h"
 #include "runtime/matching/mirror.h"
 #include "runtime/matching/posterior.h"
+#include "runtime/matching/refine_on_rays.h"
 
 namespace plumb::runtime {
 namespace {
@@ -22,6 +23,7 @@ constexpr size_t kNearbyRays = 2000;  // enough to tell 0.3 m from 0
 constexpr int kNearbyDirections = 8;
 constexpr int kLeastPlanes = 3;  // with fewer no place is accepted
 constexpr int kFinalistsPerKept = 2;
+constexpr size_t kRefinedOnRays = 2;  // the best and its rival
 constexpr size_t kAliasedFinalists = 8;
 constexpr double kSensorHeights_m[] = {0.3, 0.6, 0.9, 1.2, 1.5};
 constexpr double kLowestMargin_m = 0.1;
@@ -46,6 +48,8 @@ class PoseSearch {
     candidates.resize(std::min(candidates.size(), static_cast<size_t>(kFinalistsPerKept * options.keep_hypotheses)));
     oneapi::tbb::parallel_for(size_t{0}, candidates.size(),
                               [&](size_t i) { candidates[i].rays = JudgeRays(plan, map, candidates[i].fit.pose, options); });
+    candidates = SortAndMerge(std::move(candidates));
+    for (size_t i = 0; i < std::min(candidates.size(), kRefinedOnRays); ++i) RefineOnRays(map, candidates[i]);
     return SortAndMerge(std::move(candidates));
   }
 
@@ -54,9 +58,12 @@ class PoseSearch {
     double best = -1e300;
     for (const double scale : {1 - options.accept_scale_error, 1 + options.accept_scale_error}) {
       const MapView scaled = Scaled(map, scale);
-      PlanarPose pose = RefineOnWalls(plan, scaled, candidate.fit.pose).pose;
-      pose.z_m = candidate.fit.pose.z_m;
-      best = std::max(best, JudgeRays(plan, scaled, pose, options).log_likelihood);
+      Candidate there = candidate;
+      there.fit = RefineOnWalls(plan, scaled, candidate.fit.pose);
+      there.fit.pose.z_m = candidate.fit.pose.z_m;
+      there.rays = JudgeRays(plan, scaled, there.fit.pose, options);
+      RefineOnRays(scaled, there);
+      best = std::max(best, there.rays.log_likelihood);
     }
     return best;
   }
@@ -83,6 +90,14 @@ class PoseSearch {
 
  private:
   [[nodiscard]] static size_t Stride(const MapView& map, size_t num_rays) { return std::max<size_t>(1, map.rays.size() / num_rays); }
+
+  void RefineOnRays(const MapView& map, Candidate& candidate) const {
+    const PlanarPose pose = runtime::RefineOnRays(plan, map, candidate.fit, options);
+    const RayEvidence rays = JudgeRays(plan, map, pose, options);
+    if (rays.log_likelihood <= candidate.rays.log_likelihood) return;
+    candidate.fit = AssessOnWalls(plan, map, pose);
+    candidate.rays = rays;
+  }
 
   [[nodiscard]] StoreyId StoreyAt(const MapView& map, double z_m) const {
     const double floor_z_m = (map.floor_z_m ? *map.floor_z_m : map.sensor_z_m - 0.6) + z_m;
@@ -186,6 +201,7 @@ std::string MatcherOptions::Check() const {
   if (ample_more_planes < 0) return bad("ample_more_planes", ample_more_planes, "at least 0");
   if (!(accept_scale_error > 0)) return bad("accept_scale_error", accept_scale_error, "positive");
   if (!(accept_scale_bias >= 0)) return bad("accept_scale_bias", accept_scale_bias, ">= 0");
+  if (!(accept_scale_loss_nats >= 0)) return bad("accept_scale_loss_nats", accept_scale_loss_nats, "at least 0");
   if (!(accept_scale_sigmas > 0)) return bad("accept_scale_sigmas", accept_scale_sigmas, "positive");
   return {};
 }
@@ -235,6 +251,7 @@ MatchResult Matcher::Match(const SGraph& map, const StartHint& hint) const {
   }
   result = Decide(finalists, view, plan, search.options, wrong);
   if (result.verdict != MatchResult::Verdict::kUnique) return result;
+  if (!wrong.scaled) wrong.scaled = search.ScaledLikelihood(view, finalists.front());
   wrong.mirrored = impl_->MirroredLikelihood(view, finalists.front().fit);
   return Decide(finalists, view, plan, search.options, wrong);
 }

@@ -43,7 +43,8 @@ struct MatcherOptions {
   // or the rays prefer the plan to one that is larger or smaller by as much, by vouch_lead_nats.
   double accept_scale_error = 0.025;
   double accept_scale_sigmas = 1.5;
-  double accept_scale_bias = 0.005;  // what a lidar's ranges may be off by is no other scale
+  double accept_scale_bias = 0.005;   // what a lidar's ranges may be off by is no other scale
+  double accept_scale_loss_nats = 5;  // by more than this the rays must never prefer a plan that is larger or smaller by accept_scale_error
   // Rays vouch for a place that far fewer walls would not: in furnished or much deviating buildings. They do where this share of them ends
   // on what the plan has there, and the place leads every rival, the plan's mirror image and "outside" by this many nats, and by this much
   // of its own log-likelihood unless nearly all rays end where they should. Furniture in the way, where half of the rays of an office may

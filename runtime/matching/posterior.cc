@@ -159,6 +159,10 @@ std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, int 
   if (!rays_tell_scale && !WallsTellScale(fit, options)) {
     return fmt::format("the scale is {:+.1f} +- {:.1f} % off the plan's", 100 * fit.scale_error, 100 * fit.sigma_scale);
   }
+  // Whatever the few walls say that agree: of a plan too large the others pass for deviated ones.
+  if (scaled && *scaled - candidate.rays.log_likelihood > options.accept_scale_loss_nats) {
+    return fmt::format("a plan of another size fits better ({:+.1f} nats)", *scaled - candidate.rays.log_likelihood);
+  }
   return {};
 }
 

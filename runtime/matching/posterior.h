@@ -25,7 +25,7 @@ struct Candidate {
 // Log-likelihoods of the best poses in plans that are not the building's.
 struct WrongPlans {
   double mirrored = 0;           // in the plan's mirror image; "outside the plan" is at least as likely
-  std::optional<double> scaled;  // near the best pose in the plan larger or smaller by accept_scale_error; none: not tried
+  std::optional<double> scaled;  // near the best pose in the plan larger or smaller by accept_scale_error; none: not tried yet
 };
 
 // Two poses of one map that no one would call the same place.

@@ -110,6 +110,18 @@ TEST(Decide, APlanOfAnotherScaleIsNeverTheBuildings) {
   EXPECT_NE(result.reason.find("scale"), std::string::npos) << result.reason;
 }
 
+TEST(Decide, APlanOfAnotherSizeThatFitsBetterForbidsTheFixWhateverTheWallsSay) {
+  const Candidate sure_walls = Good(100);
+  ASSERT_TRUE(WallsTellScale(sure_walls.fit, MatcherOptions()));
+  WrongPlans wrong;
+  wrong.scaled = 100 + MatcherOptions().accept_scale_loss_nats + 1;
+  const MatchResult result = Decided({sure_walls}, wrong);
+  EXPECT_EQ(result.verdict, Verdict::kSearching);
+  EXPECT_NE(result.reason.find("another size"), std::string::npos) << result.reason;
+  wrong.scaled = 100;
+  EXPECT_EQ(Decided({sure_walls}, wrong).verdict, Verdict::kUnique) << "the walls tell";
+}
+
 TEST(Decide, WhereWallsDoNotFixThePlaceRaysMayThatTellItFromThoseNearby) {
   const MatcherOptions options;
   Candidate loose = Good(100);

@@ -251,7 +251,8 @@ MatchResult Matcher::Match(const SGraph& map, const StartHint& hint) const {
   }
   result = Decide(finalists, view, plan, search.options, wrong);
   if (result.verdict != MatchResult::Verdict::kUnique) return result;
-  if (!wrong.scaled) wrong.scaled = search.ScaledLikelihood(view, finalists.front());
+  // Maps of planar lasers are bent by more than that.
+  if (!wrong.scaled && !view.planar) wrong.scaled = search.ScaledLikelihood(view, finalists.front());
   wrong.mirrored = impl_->MirroredLikelihood(view, finalists.front().fit);
   return Decide(finalists, view, plan, search.options, wrong);
 }

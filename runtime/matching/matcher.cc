@@ -13,12 +13,17 @@
 #include "runtime/matching/hypotheses.h"
 #include "runtime/matching/mirror.h"
 #include "runtime/matching/posterior.h"
+#include "runtime/matching/refine_on_rays.h"
 
 namespace plumb::runtime {
 namespace {
 
 constexpr size_t kCoarseRays = 500;
+constexpr size_t kNearbyRays = 2000;  // enough to tell 0.3 m from 0
+constexpr int kNearbyDirections = 8;
+constexpr int kLeastPlanes = 3;  // with fewer no place is accepted
 constexpr int kFinalistsPerKept = 2;
+constexpr size_t kRefinedOnRays = 2;  // the best and its rival
 constexpr size_t kAliasedFinalists = 8;
 constexpr double kSensorHeights_m[] = {0.3, 0.6, 0.9, 1.2, 1.5};
 constexpr double kLowestMargin_m = 0.1;
@@ -43,6 +48,8 @@ class PoseSearch {
     candidates.resize(std::min(candidates.size(), static_cast<size_t>(kFinalistsPerKept * options.keep_hypotheses)));
     oneapi::tbb::parallel_for(size_t{0}, candidates.size(),
                               [&](size_t i) { candidates[i].rays = JudgeRays(plan, map, candidates[i].fit.pose, options); });
+    candidates = SortAndMerge(std::move(candidates));
+    for (size_t i = 0; i < std::min(candidates.size(), kRefinedOnRays); ++i) RefineOnRays(map, candidates[i]);
     return SortAndMerge(std::move(candidates));
   }
 
@@ -51,18 +58,46 @@ class PoseSearch {
     double best = -1e300;
     for (const double scale : {1 - options.accept_scale_error, 1 + options.accept_scale_error}) {
       const MapView scaled = Scaled(map, scale);
-      PlanarPose pose = RefineOnWalls(plan, scaled, candidate.fit.pose).pose;
-      pose.z_m = candidate.fit.pose.z_m;
-      best = std::max(best, JudgeRays(plan, scaled, pose, options).log_likelihood);
+      Candidate there = candidate;
+      there.fit = RefineOnWalls(plan, scaled, candidate.fit.pose);
+      there.fit.pose.z_m = candidate.fit.pose.z_m;
+      there.rays = JudgeRays(plan, scaled, there.fit.pose, options);
+      RefineOnRays(scaled, there);
+      best = std::max(best, there.rays.log_likelihood);
     }
     return best;
+  }
+
+  // Candidate::lead_nearby.
+  [[nodiscard]] double LeadNearby(const MapView& map, const PlanarPose& pose) const {
+    std::vector<PlanarPose> others;
+    for (const double distance_m : {options.nearby_m, 2 * options.nearby_m, 4 * options.nearby_m}) {
+      for (int i = 0; i < kNearbyDirections; ++i) {
+        const double angle_rad = 2 * std::numbers::pi * i / kNearbyDirections;
+        others.push_back(pose);
+        others.back().t_m += distance_m * Eigen::Vector2d(std::cos(angle_rad), std::sin(angle_rad));
+      }
+    }
+    for (const int turns : {-2, -1, 1, 2}) {
+      others.push_back(pose);
+      others.back().yaw_rad += turns * options.nearby_yaw_rad;
+    }
+    return LeadOver(plan, map, pose, others, options, Stride(map, kNearbyRays));
   }
 
   const PlanIndex plan;
   const MatcherOptions options;
 
  private:
-  [[nodiscard]] size_t CoarseStride(const MapView& map) const { return std::max<size_t>(1, map.rays.size() / kCoarseRays); }
+  [[nodiscard]] static size_t Stride(const MapView& map, size_t num_rays) { return std::max<size_t>(1, map.rays.size() / num_rays); }
+
+  void RefineOnRays(const MapView& map, Candidate& candidate) const {
+    const PlanarPose pose = runtime::RefineOnRays(plan, map, candidate.fit, options);
+    const RayEvidence rays = JudgeRays(plan, map, pose, options);
+    if (rays.log_likelihood <= candidate.rays.log_likelihood) return;
+    candidate.fit = AssessOnWalls(plan, map, pose);
+    candidate.rays = rays;
+  }
 
   [[nodiscard]] StoreyId StoreyAt(const MapView& map, double z_m) const {
     const double floor_z_m = (map.floor_z_m ? *map.floor_z_m : map.sensor_z_m - 0.6) + z_m;
@@ -106,7 +141,7 @@ class PoseSearch {
   // Refined and judged by a few rays.
   [[nodiscard]] std::vector<Candidate> Judged(const MapView& map, const std::vector<PlanarPose>& poses, const StartHint& hint) const {
     std::vector<Candidate> candidates(poses.size());
-    const size_t stride = CoarseStride(map);
+    const size_t stride = Stride(map, kCoarseRays);
     oneapi::tbb::parallel_for(size_t{0}, poses.size(), [&](size_t i) {
       const WallFit fit = RefineOnWalls(plan, map, poses[i]);
       if (fit.pairs.empty()) return;
@@ -149,6 +184,8 @@ std::string MatcherOptions::Check() const {
   if (!(hint_tie_nats >= 0)) return bad("hint_tie_nats", hint_tie_nats, "at least 0");
   if (!(accept_sigma_xy_m > 0)) return bad("accept_sigma_xy_m", accept_sigma_xy_m, "positive");
   if (!(accept_sigma_yaw_rad > 0)) return bad("accept_sigma_yaw_rad", accept_sigma_yaw_rad, "positive");
+  if (!(nearby_m > 0)) return bad("nearby_m", nearby_m, "positive");
+  if (!(nearby_yaw_rad > 0)) return bad("nearby_yaw_rad", nearby_yaw_rad, "positive");
   if (accept_min_planes < 3) return bad("accept_min_planes", accept_min_planes, "at least 3");
   if (!(accept_min_consistent_ratio >= 0 && accept_min_consistent_ratio <= 1)) {
     return bad("accept_min_consistent_ratio", accept_min_consistent_ratio, "in [0, 1]");
@@ -164,6 +201,7 @@ std::string MatcherOptions::Check() const {
   if (ample_more_planes < 0) return bad("ample_more_planes", ample_more_planes, "at least 0");
   if (!(accept_scale_error > 0)) return bad("accept_scale_error", accept_scale_error, "positive");
   if (!(accept_scale_bias >= 0)) return bad("accept_scale_bias", accept_scale_bias, ">= 0");
+  if (!(accept_scale_loss_nats >= 0)) return bad("accept_scale_loss_nats", accept_scale_loss_nats, "at least 0");
   if (!(accept_scale_sigmas > 0)) return bad("accept_scale_sigmas", accept_scale_sigmas, "positive");
   return {};
 }
@@ -201,13 +239,20 @@ MatchResult Matcher::Match(const SGraph& map, const StartHint& hint) const {
     result.reason = "the map has fewer than two walls";
     return result;
   }
-  const std::vector<Candidate> finalists = search.Finalists(view, hint);
+  std::vector<Candidate> finalists = search.Finalists(view, hint);
   const AGraph& plan = search.plan.plan();
   WrongPlans wrong;
-  if (!finalists.empty() && !WallsTellScale(finalists.front().fit, search.options))
-    wrong.scaled = search.ScaledLikelihood(view, finalists.front());
+  if (!finalists.empty()) {
+    Candidate& best = finalists.front();
+    if (!WallsTellScale(best.fit, search.options)) wrong.scaled = search.ScaledLikelihood(view, best);
+    if (best.fit.consistent_planes >= kLeastPlanes && !WallsFixPlace(best.fit, search.options)) {
+      best.lead_nearby = search.LeadNearby(view, best.fit.pose);
+    }
+  }
   result = Decide(finalists, view, plan, search.options, wrong);
   if (result.verdict != MatchResult::Verdict::kUnique) return result;
+  // Maps of planar lasers are bent by more than that.
+  if (!wrong.scaled && !view.planar) wrong.scaled = search.ScaledLikelihood(view, finalists.front());
   wrong.mirrored = impl_->MirroredLikelihood(view, finalists.front().fit);
   return Decide(finalists, view, plan, search.options, wrong);
 }

@@ -24,25 +24,28 @@ struct MatcherOptions {
   double deviation_sigma_m = 0.10;  // how far built walls are expected off their plan when voting and verifying
   double range_sigma_m = 0.03;
   int rays_per_keyframe = 400;
-  int max_keyframes = 24;           // rays come from this many keyframes, spread over the map
-  double rays_per_independent = 30; // correlation: log-likelihoods are divided by this
+  int max_keyframes = 24;            // rays come from this many keyframes, spread over the map
+  double rays_per_independent = 30;  // correlation: log-likelihoods are divided by this
   double accept_probability = 0.999;
   double accept_margin_nats = 10.0;
   // A hint that prefers a place by hint_lead_nats decides for it against others that the evidence prefers by hint_tie_nats at most.
   double hint_lead_nats = 5.0, hint_tie_nats = 1.0;
   double accept_sigma_xy_m = 0.10;
   double accept_sigma_yaw_rad = 0.0087;
-  int accept_min_planes = 5;                  // of the plan's walls that the map agrees with; one more for 4 rooms, two for 32, ...
+  // ... or the rays prefer the place by accept_margin_nats to all so far off it and more, also without the wall that tells most.
+  double nearby_m = 0.3, nearby_yaw_rad = 0.052;
+  int accept_min_planes = 5;  // of the plan's walls that the map agrees with; one more for 4 rooms, two for 32, ...
   // Of the map's wall length; the rest may be furniture and deviated walls. Not asked for where rays vouch for the place, or where it leads
   // "outside" by vouch_lead_nats while no other place, nor the plan's mirror image, is better than that.
   double accept_min_consistent_ratio = 0.4;
-  double accept_max_through_ratio = 0.02;     // of the rays: may pass through walls of the plan
-  int ample_more_planes = 2;                  // this many more agree than are asked for: then vouch_max_through_ratio of the rays may
+  double accept_max_through_ratio = 0.02;  // of the rays: may pass through walls of the plan
+  int ample_more_planes = 2;               // this many more agree than are asked for: then vouch_max_through_ratio of the rays may
   // The building's size against the plan's: the walls tell it to within this with two sigmas and no farther from the plan's than so many,
   // or the rays prefer the plan to one that is larger or smaller by as much, by vouch_lead_nats.
   double accept_scale_error = 0.025;
   double accept_scale_sigmas = 1.5;
-  double accept_scale_bias = 0.005;  // what a lidar's ranges may be off by is no other scale
+  double accept_scale_bias = 0.005;   // what a lidar's ranges may be off by is no other scale
+  double accept_scale_loss_nats = 5;  // by more than this the rays must never prefer a plan that is larger or smaller by accept_scale_error
   // Rays vouch for a place that far fewer walls would not: in furnished or much deviating buildings. They do where this share of them ends
   // on what the plan has there, and the place leads every rival, the plan's mirror image and "outside" by this many nats, and by this much
   // of its own log-likelihood unless nearly all rays end where they should. Furniture in the way, where half of the rays of an office may
@@ -52,9 +55,9 @@ struct MatcherOptions {
   double vouch_lead_nats = 30;
   double vouch_lead_ratio = 0.3;
   double vouch_nearly_all_ratio = 0.9;
-  int vouch_min_planes = 4;                   // one less where nearly all rays end where they should and few go through walls
+  int vouch_min_planes = 4;  // one less where nearly all rays end where they should and few go through walls
   double vouch_max_through_ratio = 0.06;
-  double vouch_sigma_xy_m = 0.25;             // the place; which of the walls deviate is left to the coupling
+  double vouch_sigma_xy_m = 0.25;  // the place; which of the walls deviate is left to the coupling
   [[nodiscard]] std::string Check() const;
 };
 
@@ -75,7 +78,7 @@ struct MatchResult {
   Verdict verdict = Verdict::kSearching;
   std::vector<Hypothesis> hypotheses;  // best first, at most keep_hypotheses
   double probability_outside = 1;
-  std::string reason;                  // why it is not unique yet; empty when it is
+  std::string reason;  // why it is not unique yet; empty when it is
 };
 
 struct Guidance;

@@ -14,15 +14,35 @@ namespace {
 constexpr double kSamePlace_m = 0.5, kSameYaw_rad = 0.0873, kSameHeight_m = 1.0;
 constexpr double kUnknownSigma = 1e3;
 
+struct Sigmas {
+  double xy_m = 0, yaw_rad = 0;
+};
+
 // A direction that no wall fixes has no finite sigma; a weak prior keeps the inverse defined and says "unknown".
-void SetSigmas(const Eigen::Matrix3d& information, Hypothesis& hypothesis) {
+Sigmas SigmasOf(const Eigen::Matrix3d& information) {
   const Eigen::Matrix3d covariance = (information + 1 / (kUnknownSigma * kUnknownSigma) * Eigen::Matrix3d::Identity()).inverse();
   const SymmetricEigen<2> xy = EigenOf(Eigen::Matrix2d(covariance.topLeftCorner<2, 2>()));
-  hypothesis.sigma_xy_m = std::sqrt(std::max(xy.values[1], 0.0));
-  hypothesis.sigma_yaw_rad = std::sqrt(std::max(covariance(2, 2), 0.0));
+  return {std::sqrt(std::max(xy.values[1], 0.0)), std::sqrt(std::max(covariance(2, 2), 0.0))};
 }
 
-Hypothesis ToHypothesis(const Candidate& candidate, const MapView& map, const Eigen::Vector3d& origin) {
+bool RaysFixPlace(const Candidate& candidate, const MatcherOptions& options) {
+  return candidate.lead_nearby && *candidate.lead_nearby >= options.accept_margin_nats;
+}
+
+void SetSigmas(const Candidate& candidate, bool rays_vouch, const MatcherOptions& options, Hypothesis& hypothesis) {
+  Sigmas sigmas = SigmasOf(rays_vouch ? candidate.fit.place_information : candidate.fit.information);
+  if (RaysFixPlace(candidate, options)) {
+    // A normal density that loses the lead at the poses nearby.
+    const double sigmas_off = std::sqrt(2 * *candidate.lead_nearby);
+    sigmas.xy_m = std::min(sigmas.xy_m, options.nearby_m / sigmas_off);
+    sigmas.yaw_rad = std::min(sigmas.yaw_rad, options.nearby_yaw_rad / sigmas_off);
+  }
+  hypothesis.sigma_xy_m = sigmas.xy_m;
+  hypothesis.sigma_yaw_rad = sigmas.yaw_rad;
+}
+
+Hypothesis ToHypothesis(const Candidate& candidate, const MapView& map, const Eigen::Vector3d& origin, bool rays_vouch,
+                        const MatcherOptions& options) {
   Hypothesis h;
   const PlanarPose& pose = candidate.fit.pose;
   const Eigen::Matrix2d R = pose.rotation();
@@ -36,7 +56,7 @@ Hypothesis ToHypothesis(const Candidate& candidate, const MapView& map, const Ei
   h.explained_ratio = candidate.rays.explained_ratio;
   h.through_ratio = candidate.rays.through_ratio;
   h.in_front_ratio = candidate.rays.in_front_ratio;
-  SetSigmas(candidate.fit.information, h);
+  SetSigmas(candidate, rays_vouch, options, h);
   return h;
 }
 
@@ -69,8 +89,7 @@ bool Distinct(const Candidate& a, const Candidate& b) {
 }
 
 std::vector<Candidate> SortAndMerge(std::vector<Candidate> candidates) {
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& a, const Candidate& b) { return a.score() > b.score(); });
+  std::stable_sort(candidates.begin(), candidates.end(), [](const Candidate& a, const Candidate& b) { return a.score() > b.score(); });
   std::vector<Candidate> kept;
   for (Candidate& c : candidates) {
     if (std::all_of(kept.begin(), kept.end(), [&](const Candidate& k) { return Distinct(k, c); })) kept.push_back(std::move(c));
@@ -101,6 +120,11 @@ bool StandsAlone(const std::vector<Candidate>& sorted, double mirrored, const Ma
          std::none_of(sorted.begin() + 1, sorted.end(), fits);
 }
 
+bool WallsFixPlace(const WallFit& fit, const MatcherOptions& options) {
+  const Sigmas sigmas = SigmasOf(fit.information);
+  return sigmas.xy_m <= options.accept_sigma_xy_m && sigmas.yaw_rad <= options.accept_sigma_yaw_rad;
+}
+
 bool WallsTellScale(const WallFit& fit, const MatcherOptions& options) {
   return std::abs(fit.scale_error) + 2 * fit.sigma_scale <= options.accept_scale_error &&
          std::abs(fit.scale_error) <= std::max(options.accept_scale_sigmas * fit.sigma_scale, options.accept_scale_bias);
@@ -117,7 +141,8 @@ std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, int 
     required_planes = std::min(required_planes, options.vouch_min_planes - (nearly_all ? 1 : 0));
   }
   const double max_sigma_xy_m = rays_vouch ? options.vouch_sigma_xy_m : options.accept_sigma_xy_m;
-  if (hypothesis.sigma_xy_m > max_sigma_xy_m || hypothesis.sigma_yaw_rad > options.accept_sigma_yaw_rad) {
+  if (!RaysFixPlace(candidate, options) &&
+      (hypothesis.sigma_xy_m > max_sigma_xy_m || hypothesis.sigma_yaw_rad > options.accept_sigma_yaw_rad)) {
     return "too few walls agree to fix the position in every direction";
   }
   if (fit.consistent_planes < required_planes) {
@@ -134,6 +159,10 @@ std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, int 
   if (!rays_tell_scale && !WallsTellScale(fit, options)) {
     return fmt::format("the scale is {:+.1f} +- {:.1f} % off the plan's", 100 * fit.scale_error, 100 * fit.sigma_scale);
   }
+  // Whatever the few walls say that agree: of a plan too large the others pass for deviated ones.
+  if (scaled && *scaled - candidate.rays.log_likelihood > options.accept_scale_loss_nats) {
+    return fmt::format("a plan of another size fits better ({:+.1f} nats)", *scaled - candidate.rays.log_likelihood);
+  }
   return {};
 }
 
@@ -145,9 +174,10 @@ MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, con
     return result;
   }
   const size_t n = std::min(sorted.size(), static_cast<size_t>(options.keep_hypotheses));
-  for (size_t i = 0; i < n; ++i) result.hypotheses.push_back(ToHypothesis(sorted[i], map, plan.origin));
   const RayVerdict by_rays{RaysVouch(sorted, wrong.mirrored, options), StandsAlone(sorted, wrong.mirrored, options)};
-  if (by_rays.vouch) SetSigmas(sorted.front().fit.place_information, result.hypotheses.front());
+  for (size_t i = 0; i < n; ++i) {
+    result.hypotheses.push_back(ToHypothesis(sorted[i], map, plan.origin, by_rays.vouch && i == 0, options));
+  }
   SetProbabilities(result, std::max(0.0, wrong.mirrored));
   const Hypothesis& best = result.hypotheses.front();
   // A hint says where in the plan, not that it is the building's: here only the evidence counts.
@@ -162,8 +192,8 @@ MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, con
   }
   const auto rivals = std::count_if(sorted.begin() + 1, sorted.begin() + static_cast<ptrdiff_t>(n),
                                     [&](const Candidate& c) { return IsRival(sorted.front(), c, options); });
-  result.reason = Doubt(sorted.front(), best, RequiredPlanes(plan.rooms.size(), sorted.front().log_prior, options), by_rays, wrong.scaled,
-                        options);
+  result.reason =
+      Doubt(sorted.front(), best, RequiredPlanes(plan.rooms.size(), sorted.front().log_prior, options), by_rays, wrong.scaled, options);
   if (!result.reason.empty()) {
     if (rivals > 0) result.reason += "; " + OthersAlike(rivals);
     return result;

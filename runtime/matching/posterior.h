@@ -16,6 +16,8 @@ struct Candidate {
   RayEvidence rays;
   StoreyId storey;
   double log_prior = 0;  // of the robot's start, by a hint
+  // By how much the rays prefer it to poses a little off it (LeadOver); none: not asked for, as its walls fix it or too few of them agree.
+  std::optional<double> lead_nearby;
 
   [[nodiscard]] double score() const { return rays.log_likelihood + log_prior; }
 };
@@ -23,7 +25,7 @@ struct Candidate {
 // Log-likelihoods of the best poses in plans that are not the building's.
 struct WrongPlans {
   double mirrored = 0;           // in the plan's mirror image; "outside the plan" is at least as likely
-  std::optional<double> scaled;  // near the best pose in the plan larger or smaller by accept_scale_error; none: not tried
+  std::optional<double> scaled;  // near the best pose in the plan larger or smaller by accept_scale_error; none: not tried yet
 };
 
 // Two poses of one map that no one would call the same place.
@@ -51,6 +53,9 @@ struct WrongPlans {
 struct RayVerdict {
   bool vouch = false, stands_alone = false;  // RaysVouch(), StandsAlone()
 };
+
+// Whether the walls alone fix the place in every direction to within accept_sigma_xy_m and accept_sigma_yaw_rad.
+[[nodiscard]] bool WallsFixPlace(const WallFit& fit, const MatcherOptions& options);
 
 // Whether the walls tell the building's size to within accept_scale_error, and that it is the plan's.
 [[nodiscard]] bool WallsTellScale(const WallFit& fit, const MatcherOptions& options);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <numbers>
 #include <vector>
 
@@ -20,6 +22,7 @@ constexpr double kNormalsAgree = 2.5, kNormalsDiffer = 0.1;
 constexpr double kSameNormal = 0.94;  // cosine of 20 degrees
 // What a wrong plan still gains per judged ray at the pose that suits it best. It is the price of "in the plan".
 constexpr double kForeignGain = 0.5;
+constexpr uint32_t kNoTriangle = 0xffffffffu;  // as RayHit
 
 double Gaussian(double x, double sigma) {
   const double t = x / sigma;
@@ -32,6 +35,7 @@ struct RayJudgement {
   double other = 0;                       // ... of neither
   bool judged = false, only_for = false;  // only_for: speaks for the pose or not at all
   bool explained = false, through = false, in_front = false;
+  uint32_t triangle = kNoTriangle;  // of the plan, on which it should have ended
 
   [[nodiscard]] double LogRatio(double furnished) const {
     const double ratio = (1 - kRandom) * ((1 - furnished) * hit + furnished * short_of) + other;
@@ -51,6 +55,7 @@ class Judge {
     const PlanHit hit = plan_.Cast({origin.cast<float>(), direction.cast<float>()});
     if (!hit.first.hit()) return {};
     RayJudgement result;
+    result.triangle = (hit.solid.hit() ? hit.solid : hit.first).triangle;
     const double background = map_.background.Density(ray.range_m);
     result.hit = HitDensity(ray, direction, hit.first) / background;
     double furthest_m = hit.first.range_m;
@@ -112,36 +117,86 @@ double RayModel::HitDensity(double range_m, double expected_m, double incidence,
   return density * (normals > 0 ? kNormalsAgree : normals < 0 ? kNormalsDiffer : 1.0);
 }
 
+namespace {
+
+// All rays, or every so many, under one pose.
+class Judgements {
+ public:
+  Judgements(const Judge& judge, const MapView& map, size_t stride) {
+    rays_.reserve(map.rays.size() / stride + 1);
+    for (size_t i = 0; i < map.rays.size(); i += stride) {
+      const RayJudgement& j = rays_.emplace_back(judge(map.rays[i]));
+      judged_ += j.judged;
+      explained_ += j.explained;
+      through_ += j.through;
+      in_front_ += j.in_front;
+    }
+    if (rays_.empty()) return;
+    // How much furniture there is nobody knows beforehand: as much as suits the pose.
+    furnished_ = std::clamp(static_cast<double>(in_front_) / std::max(judged_, 1), kFurnished, kMostFurnished);
+    scale_ = static_cast<double>(map.rays.size()) / static_cast<double>(rays_.size());
+  }
+
+  [[nodiscard]] const std::vector<RayJudgement>& rays() const { return rays_; }
+
+  // Of one ray. Charged for every ray, judged or not: a pose from which nothing of the plan is seen explains nothing. But what furniture
+  // stops says as little of a wrong plan as of the right one.
+  [[nodiscard]] double LogLikelihood(const RayJudgement& j, const MatcherOptions& options) const {
+    return scale_ * (j.LogRatio(furnished_) - (j.in_front ? 0 : kForeignGain)) / options.rays_per_independent;
+  }
+
+  [[nodiscard]] RayEvidence Evidence(const MatcherOptions& options) const {
+    RayEvidence evidence;
+    evidence.judged = judged_;
+    for (const RayJudgement& j : rays_) evidence.log_likelihood += LogLikelihood(j, options);
+    if (judged_ > 0) {
+      evidence.explained_ratio = static_cast<double>(explained_) / judged_;
+      evidence.in_front_ratio = static_cast<double>(in_front_) / judged_;
+      evidence.through_ratio = static_cast<double>(through_) / judged_;
+    }
+    return evidence;
+  }
+
+ private:
+  std::vector<RayJudgement> rays_;
+  double furnished_ = kFurnished, scale_ = 1;
+  int judged_ = 0, explained_ = 0, through_ = 0, in_front_ = 0;
+};
+
+// What moves with a triangle of the plan: the wall that it is of or that hosts it, else its element. The nothing beyond the plan is one
+// too.
+uint32_t OwnerOf(const AGraph& plan, uint32_t triangle) {
+  if (triangle == kNoTriangle) return triangle;
+  const uint32_t element = plan.mesh.triangles[triangle].element;
+  const WallId wall = plan.elements[element].wall;
+  return wall.valid() ? static_cast<uint32_t>(wall.index()) : static_cast<uint32_t>(plan.walls.size()) + element;
+}
+
+}  // namespace
+
 RayEvidence JudgeRays(const PlanIndex& plan, const MapView& map, const PlanarPose& pose, const MatcherOptions& options, size_t stride) {
-  const Judge judge(plan, map, pose, options);
-  RayEvidence evidence;
-  std::vector<RayJudgement> judgements;
-  judgements.reserve(map.rays.size() / stride + 1);
-  int explained = 0, through = 0, in_front = 0;
-  for (size_t i = 0; i < map.rays.size(); i += stride) {
-    const RayJudgement& j = judgements.emplace_back(judge(map.rays[i]));
-    evidence.judged += j.judged;
-    explained += j.explained;
-    through += j.through;
-    in_front += j.in_front;
+  return Judgements(Judge(plan, map, pose, options), map, stride).Evidence(options);
+}
+
+double LeadOver(const PlanIndex& plan, const MapView& map, const PlanarPose& pose, std::span<const PlanarPose> others,
+                const MatcherOptions& options, size_t stride) {
+  const Judgements here(Judge(plan, map, pose, options), map, stride);
+  double least = std::numeric_limits<double>::infinity();
+  for (const PlanarPose& other : others) {
+    const Judgements there(Judge(plan, map, other, options), map, stride);
+    std::map<uint32_t, double> leads;  // by what the ray should have ended on
+    for (size_t i = 0; i < here.rays().size(); ++i) {
+      leads[OwnerOf(plan.plan(), here.rays()[i].triangle)] +=
+          here.LogLikelihood(here.rays()[i], options) - there.LogLikelihood(there.rays()[i], options);
+    }
+    double sum = 0, most = 0;
+    for (const auto& [owner, lead] : leads) {
+      sum += lead;
+      if (owner != kNoTriangle) most = std::max(most, lead);
+    }
+    least = std::min(least, sum - most);
   }
-  const size_t used = judgements.size();
-  if (used == 0) return evidence;
-  // How much furniture there is nobody knows beforehand: as much as suits the pose.
-  const double furnished = std::clamp(static_cast<double>(in_front) / std::max(evidence.judged, 1), kFurnished, kMostFurnished);
-  double sum = 0;
-  for (const RayJudgement& j : judgements) sum += j.LogRatio(furnished);
-  const double scale = static_cast<double>(map.rays.size()) / static_cast<double>(used);
-  // Charged for every ray, judged or not: a pose from which nothing of the plan is seen explains nothing. But what furniture stops says as
-  // little of a wrong plan as of the right one.
-  const double charged = static_cast<double>(used) - in_front;
-  evidence.log_likelihood = scale * (sum - kForeignGain * charged) / options.rays_per_independent;
-  if (evidence.judged > 0) {
-    evidence.explained_ratio = static_cast<double>(explained) / evidence.judged;
-    evidence.in_front_ratio = static_cast<double>(in_front) / evidence.judged;
-    evidence.through_ratio = static_cast<double>(through) / evidence.judged;
-  }
-  return evidence;
+  return least;
 }
 
 }  // namespace plumb::runtime

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 
 #include "runtime/matching/map_view.h"
 #include "runtime/matching/plan_index.h"
@@ -29,5 +30,10 @@ struct RayModel {
 // Uses every `stride`-th ray and scales to all. Thread-safe.
 [[nodiscard]] RayEvidence JudgeRays(const PlanIndex& plan, const MapView& map, const PlanarPose& pose, const MatcherOptions& options,
                                     size_t stride = 1);
+
+// By how much `pose` is better than the best of `others`, in nats, each time without what the rays that should end on one wall say, of all
+// walls that which says most: a wall that deviates must not decide alone. Infinite without others. Thread-safe.
+[[nodiscard]] double LeadOver(const PlanIndex& plan, const MapView& map, const PlanarPose& pose, std::span<const PlanarPose> others,
+                              const MatcherOptions& options, size_t stride = 1);
 
 }  // namespace plumb::runtime

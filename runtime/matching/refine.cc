@@ -27,6 +27,8 @@ struct WallGroup {
   Eigen::Vector2d normal = Eigen::Vector2d::UnitX();  // of the first pair's face
 };
 
+double WeightOf(double overlap_m) { return std::min(1.0, overlap_m / kFullVoteLength_m); }
+
 // Displacement of what the map has there from the plan's face, along its normal.
 double PairDisplacement(const PlanFace& face, const WallPair& pair, const PlanarPose& pose) {
   return FaceDistance(face, pose, 0.5 * (pair.p + pair.q), nullptr);
@@ -58,7 +60,7 @@ std::vector<WallGroup> GroupByWall(const PlanIndex& plan, const std::vector<Wall
   }
   std::vector<WallGroup> groups;
   for (const auto& [wall, some] : by_wall) groups.insert(groups.end(), some.begin(), some.end());
-  for (WallGroup& group : groups) group.weight = std::min(1.0, group.overlap_m / kFullVoteLength_m);
+  for (WallGroup& group : groups) group.weight = WeightOf(group.overlap_m);
   std::stable_sort(groups.begin(), groups.end(), [](const WallGroup& a, const WallGroup& b) { return a.overlap_m > b.overlap_m; });
   return groups;
 }
@@ -79,11 +81,19 @@ class WallProblem {
   // Mean square distance of a group's pairs at their two ends.
   [[nodiscard]] double SquaredDistance(const WallGroup& group, const PlanarPose& pose) const {
     double sum = 0;
-    for (size_t i : group.pairs) {
-      const double rp = FaceDistance(face(i), pose, pairs_[i].p, nullptr), rq = FaceDistance(face(i), pose, pairs_[i].q, nullptr);
-      sum += pairs_[i].overlap_m * 0.5 * (rp * rp + rq * rq);
-    }
+    for (size_t i : group.pairs) sum += pairs_[i].overlap_m * SquaredDistance(pairs_[i], pose);
     return sum / group.overlap_m;
+  }
+
+  // The group without the pairs that are farther off: at rough ranges what stands before a wall may pass for a piece of it, and does not
+  // make the wall deviate.
+  [[nodiscard]] WallGroup PiecesWithin(const WallGroup& group, const PlanarPose& pose, double distance_m) const {
+    WallGroup out = group;
+    std::erase_if(out.pairs, [&](size_t i) { return SquaredDistance(pairs_[i], pose) > distance_m * distance_m; });
+    out.overlap_m = 0;
+    for (size_t i : out.pairs) out.overlap_m += pairs_[i].overlap_m;
+    out.weight = WeightOf(out.overlap_m);
+    return out;
   }
 
   // Mean displacement of the built wall along the group's normal.
@@ -110,6 +120,12 @@ class WallProblem {
   }
 
  private:
+  [[nodiscard]] double SquaredDistance(const WallPair& pair, const PlanarPose& pose) const {
+    const PlanFace& f = plan_.faces()[pair.face];
+    const double rp = FaceDistance(f, pose, pair.p, nullptr), rq = FaceDistance(f, pose, pair.q, nullptr);
+    return 0.5 * (rp * rp + rq * rq);
+  }
+
   const PlanIndex& plan_;
   const std::vector<WallPair>& pairs_;
   double sigma_m_;
@@ -246,17 +262,15 @@ void Assess(const PlanIndex& plan, const MapView& map, const WallProblem& proble
   double consistent_m = 0;
   const double tolerance_m = problem.tolerance_m(), counted_m = std::min(tolerance_m, kMostCounted_m);
   for (size_t i = 0; i < groups.size(); ++i) {
-    const double squared_m2 = problem.SquaredDistance(groups[i], fit.pose);
-    if (squared_m2 > tolerance_m * tolerance_m) continue;
-    const double weight = groups[i].weight / (problem.sigma_m() * problem.sigma_m());
-    problem.AddNormalEquations(groups[i], fit.pose, weight, H, g);
+    const WallGroup group = problem.PiecesWithin(groups[i], fit.pose, tolerance_m);
+    const double weight = group.weight / (problem.sigma_m() * problem.sigma_m());
+    problem.AddNormalEquations(group, fit.pose, weight, H, g);
     if (clear[i]) {
-      problem.AddNormalEquations(groups[i], fit.pose, weight, H_clear, unused);
+      problem.AddNormalEquations(group, fit.pose, weight, H_clear, unused);
     } else {
-      problem.AddNormalEquations(groups[i], fit.pose, groups[i].weight / (kContestedSigma_m * kContestedSigma_m), H_contested, unused);
+      problem.AddNormalEquations(group, fit.pose, group.weight / (kContestedSigma_m * kContestedSigma_m), H_contested, unused);
     }
-    if (squared_m2 > counted_m * counted_m) continue;
-    for (size_t k : groups[i].pairs) {
+    for (size_t k : problem.PiecesWithin(group, fit.pose, counted_m).pairs) {
       overlap_m[problem.pair(k).face] += problem.pair(k).overlap_m;
       consistent_m += problem.pair(k).overlap_m;
     }

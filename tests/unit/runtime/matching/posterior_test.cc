@@ -110,6 +110,35 @@ TEST(Decide, APlanOfAnotherScaleIsNeverTheBuildings) {
   EXPECT_NE(result.reason.find("scale"), std::string::npos) << result.reason;
 }
 
+TEST(Decide, APlanOfAnotherSizeThatFitsBetterForbidsTheFixWhateverTheWallsSay) {
+  const Candidate sure_walls = Good(100);
+  ASSERT_TRUE(WallsTellScale(sure_walls.fit, MatcherOptions()));
+  WrongPlans wrong;
+  wrong.scaled = 100 + MatcherOptions().accept_scale_loss_nats + 1;
+  const MatchResult result = Decided({sure_walls}, wrong);
+  EXPECT_EQ(result.verdict, Verdict::kSearching);
+  EXPECT_NE(result.reason.find("another size"), std::string::npos) << result.reason;
+  wrong.scaled = 100;
+  EXPECT_EQ(Decided({sure_walls}, wrong).verdict, Verdict::kUnique) << "the walls tell";
+}
+
+TEST(Decide, WhereWallsDoNotFixThePlaceRaysMayThatTellItFromThoseNearby) {
+  const MatcherOptions options;
+  Candidate loose = Good(100);
+  loose.fit.information = loose.fit.place_information = Eigen::Vector3d(1e6, 0, 1e6).asDiagonal();
+  EXPECT_FALSE(WallsFixPlace(loose.fit, options));
+  EXPECT_EQ(Decided({loose}).verdict, Verdict::kSearching);
+  loose.lead_nearby = options.accept_margin_nats - 1;
+  const MatchResult unsure = Decided({loose});
+  EXPECT_EQ(unsure.verdict, Verdict::kSearching);
+  EXPECT_NE(unsure.reason.find("too few walls"), std::string::npos) << unsure.reason;
+  loose.lead_nearby = options.accept_margin_nats + 1;
+  const MatchResult sure = Decided({loose});
+  EXPECT_EQ(sure.verdict, Verdict::kUnique) << sure.reason;
+  EXPECT_NEAR(sure.hypotheses.front().sigma_xy_m, options.nearby_m / std::sqrt(22.0), 1e-9);
+  EXPECT_LT(sure.hypotheses.front().sigma_yaw_rad, 0.002) << "the walls tell";
+}
+
 TEST(WallsTellScale, OnlyWhereTheyAgreeWithThePlansToo) {
   const MatcherOptions options;
   WallFit fit;

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "tests/unit/runtime/matching/scenes.h"
 
 namespace plumb::runtime {
@@ -113,6 +115,28 @@ TEST(JudgeRays, DoesNotMindWhetherADoorIsOpen) {
   EXPECT_GT(e1.explained_ratio, 0.97);
   EXPECT_GT(e2.explained_ratio, 0.97);
   EXPECT_LT(e1.through_ratio, 0.002);
+}
+
+// Across y two walls tell where the room is, across x one that was left out of the rays and one that remains.
+TEST(LeadOver, AsksForMoreThanOneWall) {
+  const AGraph box = test::MakeGridPlan({0, 5}, {0, 4}, {});
+  const PlanIndex plan(box);
+  MapView view = ViewOf(box, {{2, 2}, {3, 2.5}});
+  const MatcherOptions options;
+  const PlanarPose truth = At(view, 0, 0), along_x[] = {At(view, 0.3, 0), At(view, -0.3, 0)}, along_y[] = {At(view, 0, 0.3)};
+  EXPECT_GT(LeadOver(plan, view, truth, along_x, options), options.accept_margin_nats);
+  EXPECT_LT(LeadOver(plan, view, along_x[0], {&truth, 1}, options), 0);
+  std::erase_if(view.rays, [&](const MapRay& ray) { return view.center_m.x() + ray.origin.x() + ray.range_m * ray.direction.x() < 0.3; });
+  EXPECT_GT(JudgeRays(plan, view, truth, options).log_likelihood - JudgeRays(plan, view, along_x[0], options).log_likelihood,
+            options.accept_margin_nats);
+  EXPECT_LT(LeadOver(plan, view, truth, along_x, options), 0.3 * options.accept_margin_nats);
+  EXPECT_GT(LeadOver(plan, view, truth, along_y, options), options.accept_margin_nats);
+}
+
+TEST(LeadOver, IsInfiniteWithoutOthers) {
+  const AGraph house = test::MakeHouse();
+  const MapView view = ViewOf(house, test::kFromA);
+  EXPECT_EQ(LeadOver(PlanIndex(house), view, At(view, 0, 0), {}, MatcherOptions()), std::numeric_limits<double>::infinity());
 }
 
 }  // namespace

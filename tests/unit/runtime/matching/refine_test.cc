@@ -82,6 +82,22 @@ TEST(AssessOnWalls, CountsNoMorePlanesInARoughMap) {
   }
 }
 
+// At rough ranges the side of a cupboard before a wall passes for a piece of it. The wall behind stands as planned all the same.
+TEST(AssessOnWalls, CountsAWallThatSomethingStandsBefore) {
+  const AGraph house = test::MakeHouse();
+  const PlanIndex plan(house);
+  MapView view = ViewMap(MakeSyntheticMap(house, OnTour(test::kWholeHouse, UprightPose(0, 0, 0, 0))), MatcherOptions());
+  view.wall_sigma_m = 0.035;
+  const WallFit bare = AssessOnWalls(plan, view, TruePose(view));
+  MapWall cupboard = view.walls.front();
+  for (Eigen::Vector2d* end : {&cupboard.start, &cupboard.end}) *end += 0.12 * cupboard.normal;
+  view.walls.push_back(cupboard);
+  const WallFit furnished = AssessOnWalls(plan, view, TruePose(view));
+  EXPECT_EQ(furnished.consistent_planes, bare.consistent_planes);
+  EXPECT_NEAR(furnished.consistent_ratio, bare.consistent_ratio, 1e-9);
+  EXPECT_LT((furnished.information - bare.information).norm(), 1e-6 * bare.information.norm());
+}
+
 TEST(AssessOnWalls, HasNoInformationWhereNoMajorityOfWallsAgrees) {
   // Two walls across x, one of them moved: either may be the one as planned.
   const AGraph box = test::MakeGridPlan({0, 5}, {0, 4}, {});

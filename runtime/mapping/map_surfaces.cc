@@ -16,6 +16,7 @@ constexpr double kEndOffset_m = 0.03, kMinAngle_rad = 0.02;
 constexpr double kMaxJointOff =
     0.5;  // of the merge distance: how much further from the common plane than from its own a part's points may be, rms
 constexpr double kEchoPoints = 0.2, kEchoFacingCos = 0.94, kEchoDistance_m = 0.15, kEchoShare = 0.6;
+constexpr uint32_t kEchoViews = 5;         // times an echo's
 constexpr double kEdge_m = 0.5 * kCell_m;  // a cell's mean point lies inside the surface's edge by about this
 
 double MeanSquareDistance(const PlaneStats& sum, const Plane& plane) {
@@ -67,6 +68,9 @@ void UpdatePlane(const std::vector<Keyframe>& keyframes, const Eigen::Vector3d& 
 // Bounds of b in a's coordinates.
 struct Bounds {
   Eigen::Vector2d lo, hi;
+  [[nodiscard]] bool Meet(const SurfacePatch& a) const {
+    return (lo.array() <= a.hi().array()).all() && (hi.array() >= a.lo().array()).all();
+  }
 };
 Bounds BoundsIn(const SurfacePatch& a, const SurfacePatch& b) {
   Bounds bounds;
@@ -146,6 +150,33 @@ bool IsEcho(const MapSurface& b, const SurfacePatch& b_patch, const std::vector<
   return static_cast<double>(covered) >= kEchoShare * static_cast<double>(cells.size());
 }
 
+std::vector<bool> EchoCells(const MapSurface& b, const SurfacePatch& b_patch, const std::vector<MapSurface>& surfaces,
+                            const std::vector<SurfaceTrack>& tracks) {
+  const std::vector<Eigen::Vector3d> cells = b_patch.CellPoints();
+  std::vector<bool> echo(cells.size(), false);
+  for (size_t i = 0; i < surfaces.size(); ++i) {
+    const MapSurface& a = surfaces[i];
+    const SurfacePatch& a_patch = tracks[i].patch;
+    if (a.observations.empty() || a.kind != b.kind || &a_patch == &b_patch || a.plane.n.dot(b.plane.n) < kEchoFacingCos ||
+        !BoundsIn(a_patch, b_patch).Meet(a_patch))
+      continue;
+    const bool doubtful = b.observations.size() == 1 && a.num_points > b.num_points;
+    for (size_t c = 0; c < cells.size(); ++c) {
+      if (!echo[c]) echo[c] = a_patch.ViewsAt(cells[c], kEchoDistance_m) >= (doubtful ? 1 : kEchoViews * b_patch.views()[c]);
+    }
+  }
+  return echo;
+}
+
+bool TakeCells(const std::vector<bool>& gone, const MapperOptions& options, MapSurface* surface, SurfaceTrack* track) {
+  const auto left = static_cast<double>(std::count(gone.begin(), gone.end(), false));
+  if (left * kCell_m * kCell_m < options.min_segment_extent_m * options.min_segment_extent_m) return false;
+  track->patch.Forget(gone);
+  if (track->patch.hi().x() - track->patch.lo().x() + 2 * kEdge_m < options.min_segment_extent_m) return false;
+  UpdateExtent(*track, surface);
+  return true;
+}
+
 void Absorb(const TrackedSurface& b, const std::vector<Keyframe>& keyframes, MapSurface* a, SurfaceTrack* a_track) {
   std::vector<Observation>& observations = a->observations;
   for (const Observation& o : b.surface.observations) {
@@ -159,7 +190,7 @@ void Absorb(const TrackedSurface& b, const std::vector<Keyframe>& keyframes, Map
   }
   a_track->sum.Add(b.track.sum);
   UpdatePlane(keyframes, a->plane.n, a, a_track);
-  for (const Eigen::Vector3d& p : b.track.patch.CellPoints()) a_track->patch.Mark(p);
+  a_track->patch.MarkAll(b.track.patch);
   UpdateExtent(*a_track, a);
 }
 

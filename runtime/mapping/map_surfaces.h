@@ -38,6 +38,15 @@ struct TrackedSurface {
 [[nodiscard]] bool IsEcho(const MapSurface& b, const SurfacePatch& b_patch, const std::vector<MapSurface>& surfaces,
                           const std::vector<SurfaceTrack>& tracks);
 
+// Which of b's cells are echoes though b as a whole is none: those right in front of or behind a cell that has been seen from many times as
+// many keyframes, or, if b was seen from one alone, those of any surface with more points: the corner of a room or a step leans such
+// planes. In the order of its patch's cells; arguments as above.
+[[nodiscard]] std::vector<bool> EchoCells(const MapSurface& b, const SurfacePatch& b_patch, const std::vector<MapSurface>& surfaces,
+                                          const std::vector<SurfaceTrack>& tracks);
+
+// Takes cells from a surface. False if what is left is too small for one.
+[[nodiscard]] bool TakeCells(const std::vector<bool>& gone, const MapperOptions& options, MapSurface* surface, SurfaceTrack* track);
+
 // Adds b's observations and cells to a.
 void Absorb(const TrackedSurface& b, const std::vector<Keyframe>& keyframes, MapSurface* a, SurfaceTrack* a_track);
 

@@ -245,6 +245,17 @@ void Mapper::MergeDuplicates() {
   }
 }
 
+void Mapper::DropEchoCells() {
+  std::vector<std::vector<bool>> gone(graph_.surfaces.size());
+  for (size_t i = 0; i < gone.size(); ++i) {
+    if (!graph_.surfaces[i].observations.empty()) gone[i] = EchoCells(graph_.surfaces[i], tracks_[i].patch, graph_.surfaces, tracks_);
+  }
+  for (size_t i = 0; i < gone.size(); ++i) {
+    if (std::find(gone[i].begin(), gone[i].end(), true) == gone[i].end()) continue;
+    if (!TakeCells(gone[i], options_, &graph_.surfaces[i], &tracks_[i])) Empty(i);
+  }
+}
+
 void Mapper::OnPosesChanged() {
   for (Keyframe& keyframe : graph_.keyframes) {
     if (keyframe.merged) keyframe.T_map_kf = graph_.keyframes[keyframe.merged->into].T_map_kf * keyframe.merged->T_into_kf;
@@ -253,6 +264,7 @@ void Mapper::OnPosesChanged() {
     if (!graph_.surfaces[i].observations.empty()) Recompute(graph_.keyframes, &graph_.surfaces[i], &tracks_[i]);
   }
   MergeDuplicates();
+  if (!graph_.planar) DropEchoCells();
   if (graph_.keyframes.empty()) return;
   const Keyframe& newest = graph_.keyframes.back();
   T_map_odom_ = newest.T_map_kf * newest.T_odom_kf.inverse();

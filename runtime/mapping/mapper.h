@@ -53,6 +53,7 @@ class Mapper {
   void ClosePlanarLoops(const KeyframeWindow& window);
   void CloseSpatialLoops();
   void MergeDuplicates();
+  void DropEchoCells();
   void BoundKeyframes();
   void Merge(uint32_t keyframe, uint32_t into);
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <functional>
 
 namespace plumb::runtime {
@@ -39,6 +40,23 @@ bool IsEchoOf(const TrackedSurface& b, const std::vector<TrackedSurface>& others
   return IsEcho(b.surface, b.track.patch, surfaces, tracks);
 }
 
+// The same seen from so many keyframes.
+TrackedSurface Seen(size_t views, const TrackedSurface& once) {
+  const std::vector<Keyframe> keyframes(views);
+  TrackedSurface out = once;
+  for (size_t i = 1; i < views; ++i) {
+    TrackedSurface again = once;
+    again.surface.observations[0].keyframe = static_cast<uint32_t>(i);
+    Absorb(again, keyframes, &out.surface, &out.track);
+  }
+  return out;
+}
+
+// Which of b's cells are left beside another surface.
+std::vector<bool> EchoCellsBeside(const TrackedSurface& b, const TrackedSurface& other) {
+  return EchoCells(b.surface, b.track.patch, {b.surface, other.surface}, {b.track, other.track});
+}
+
 TEST(FitOnePlane, TakesPartsOfOneWallInSpiteOfDrift) {
   EXPECT_TRUE(FitOnePlane(WallAt(0, 2, 1), WallAt(2.2, 4, 1), {}));
   EXPECT_TRUE(FitOnePlane(WallAt(0, 2, 1), WallAt(2.2, 4, 1.02), {}));
@@ -73,6 +91,42 @@ TEST(IsEcho, IsNothingThatTheWallLeavesRoomFor) {
   EXPECT_FALSE(IsEchoOf(Patch(2, 3, 1.05, 0, 5, Everywhere), {wall})) << "a leaf in its doorway";
   EXPECT_FALSE(IsEchoOf(Patch(0.5, 1.5, 0.7, 0, 5, Everywhere), {wall})) << "a cupboard's front, seen past";
   EXPECT_FALSE(IsEchoOf(Patch(0, 5, 0.95, 0, 50, Everywhere), {wall})) << "a panelling seen half as often";
+}
+
+// A door leaf that a few noisy views made as wide as its wall.
+TEST(EchoCells, AreALeafsOutsideItsDoorway) {
+  const auto in_doorway = [](double x_m, double) { return x_m > 2 && x_m < 3; };
+  const TrackedSurface wall = Seen(6, Patch(0, 5, 1, 0, 100, [&](double x_m, double z_m) { return !in_doorway(x_m, z_m); }));
+  TrackedSurface leaf = Seen(5, Patch(0, 5, 1.06, 0, 100, in_doorway));
+  Absorb(Patch(0, 5, 1.06, 0, 5, Everywhere), {Keyframe()}, &leaf.surface, &leaf.track);
+  ASSERT_FALSE(IsEchoOf(leaf, {wall}));
+  ASSERT_NEAR(leaf.surface.length_m(), 5, 0.11);
+  const std::vector<bool> echo = EchoCellsBeside(leaf, wall);
+  EXPECT_EQ(std::count(echo.begin(), echo.end(), false), 200);
+  const std::vector<bool> of_wall = EchoCellsBeside(wall, leaf);
+  EXPECT_EQ(std::count(of_wall.begin(), of_wall.end(), true), 0);
+
+  ASSERT_TRUE(TakeCells(echo, {}, &leaf.surface, &leaf.track));
+  EXPECT_NEAR(leaf.surface.length_m(), 1, 0.11);
+  EXPECT_EQ(leaf.surface.cells.size(), 200u);
+  EXPECT_NEAR(leaf.surface.area_m2, 2, 1e-9);
+}
+
+// Of a plane that one keyframe alone has seen, and across a wall that it has more points of.
+TEST(EchoCells, AreThoseOfASingleDoubtfulView) {
+  const TrackedSurface wall = Patch(0, 3, 1, 0, 20, Everywhere), leaning = Patch(1, 2, 0.97, 0.06, 10, Everywhere);
+  const auto all = [](const std::vector<bool>& echo) { return std::count(echo.begin(), echo.end(), true); };
+  EXPECT_EQ(all(EchoCellsBeside(leaning, wall)), 200);
+  EXPECT_EQ(all(EchoCellsBeside(wall, leaning)), 0);
+  EXPECT_EQ(all(EchoCellsBeside(Seen(2, leaning), wall)), 0);
+  EXPECT_EQ(all(EchoCellsBeside(Patch(1, 2, 0.8, 0, 10, Everywhere), wall)), 0) << "a cupboard's front";
+}
+
+TEST(TakeCells, LeavesNoScraps) {
+  TrackedSurface wall = Patch(0, 2, 1, 0, 1, Everywhere);
+  std::vector<bool> gone(wall.surface.cells.size(), true);
+  std::fill_n(gone.begin(), 10, false);
+  EXPECT_FALSE(TakeCells(gone, {}, &wall.surface, &wall.track));
 }
 
 }  // namespace

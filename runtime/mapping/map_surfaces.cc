@@ -157,12 +157,11 @@ std::vector<bool> EchoCells(const MapSurface& b, const SurfacePatch& b_patch, co
   for (size_t i = 0; i < surfaces.size(); ++i) {
     const MapSurface& a = surfaces[i];
     const SurfacePatch& a_patch = tracks[i].patch;
-    if (a.observations.empty() || a.kind != b.kind || &a_patch == &b_patch || a.plane.n.dot(b.plane.n) < kEchoFacingCos ||
+    if (a.observations.size() < kEchoViews || a.kind != b.kind || &a_patch == &b_patch || a.plane.n.dot(b.plane.n) < kEchoFacingCos ||
         !BoundsIn(a_patch, b_patch).Meet(a_patch))
       continue;
-    const bool doubtful = b.observations.size() == 1 && a.num_points > b.num_points;
     for (size_t c = 0; c < cells.size(); ++c) {
-      if (!echo[c]) echo[c] = a_patch.ViewsAt(cells[c], kEchoDistance_m) >= (doubtful ? 1 : kEchoViews * b_patch.views()[c]);
+      if (!echo[c]) echo[c] = a_patch.ViewsAt(cells[c], kEchoDistance_m) >= kEchoViews * b_patch.views()[c];
     }
   }
   return echo;

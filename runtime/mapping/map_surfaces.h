@@ -39,8 +39,7 @@ struct TrackedSurface {
                           const std::vector<SurfaceTrack>& tracks);
 
 // Which of b's cells are echoes though b as a whole is none: those right in front of or behind a cell that has been seen from many times as
-// many keyframes, or, if b was seen from one alone, those of any surface with more points: the corner of a room or a step leans such
-// planes. In the order of its patch's cells; arguments as above.
+// many keyframes. In the order of its patch's cells; arguments as above.
 [[nodiscard]] std::vector<bool> EchoCells(const MapSurface& b, const SurfacePatch& b_patch, const std::vector<MapSurface>& surfaces,
                                           const std::vector<SurfaceTrack>& tracks);
 

@@ -112,16 +112,6 @@ TEST(EchoCells, AreALeafsOutsideItsDoorway) {
   EXPECT_NEAR(leaf.surface.area_m2, 2, 1e-9);
 }
 
-// Of a plane that one keyframe alone has seen, and across a wall that it has more points of.
-TEST(EchoCells, AreThoseOfASingleDoubtfulView) {
-  const TrackedSurface wall = Patch(0, 3, 1, 0, 20, Everywhere), leaning = Patch(1, 2, 0.97, 0.06, 10, Everywhere);
-  const auto all = [](const std::vector<bool>& echo) { return std::count(echo.begin(), echo.end(), true); };
-  EXPECT_EQ(all(EchoCellsBeside(leaning, wall)), 200);
-  EXPECT_EQ(all(EchoCellsBeside(wall, leaning)), 0);
-  EXPECT_EQ(all(EchoCellsBeside(Seen(2, leaning), wall)), 0);
-  EXPECT_EQ(all(EchoCellsBeside(Patch(1, 2, 0.8, 0, 10, Everywhere), wall)), 0) << "a cupboard's front";
-}
-
 TEST(TakeCells, LeavesNoScraps) {
   TrackedSurface wall = Patch(0, 2, 1, 0, 1, Everywhere);
   std::vector<bool> gone(wall.surface.cells.size(), true);

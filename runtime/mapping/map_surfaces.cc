@@ -100,11 +100,12 @@ TrackedSurface SurfaceOf(const Segment& segment, const Keyframe& keyframe) {
   return tracked;
 }
 
-double SurfaceDistance(const SurfacePatch& a, const SurfacePatch& b, const MapperOptions& options) {
+double SurfaceDistance(const SurfacePatch& a, const SurfacePatch& b, const MapperOptions& options, bool directed) {
   constexpr double kApart = std::numeric_limits<double>::infinity();
   if (a.kind() != b.kind() || a.plane().n.dot(b.plane().n) < kSameFacingCos) return kApart;
   const double shorter_m = std::min(a.hi().x() - a.lo().x(), b.hi().x() - b.lo().x());
-  const double max_angle_rad = std::clamp(kEndOffset_m / shorter_m, kMinAngle_rad, std::max(kMinAngle_rad, options.merge_angle_rad));
+  const double end_angle_rad = directed ? kEndOffset_m / shorter_m : options.merge_angle_rad;
+  const double max_angle_rad = std::clamp(end_angle_rad, kMinAngle_rad, std::max(kMinAngle_rad, options.merge_angle_rad));
   if (NormalAngle(a.plane(), b.plane(), a.kind()) > max_angle_rad) return kApart;
   const Bounds other = BoundsIn(a, b);
   const Eigen::Vector2d from = a.lo().cwiseMax(other.lo), to = a.hi().cwiseMin(other.hi);

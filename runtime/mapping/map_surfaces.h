@@ -25,8 +25,8 @@ struct TrackedSurface {
 
 // How far apart two surfaces are, at the ends of their overlap; infinity if they are not the same: other kind or facing, other direction,
 // offset too large, or a gap between them. Offsets are taken on the surfaces, never at the frame's origin, where an error in direction
-// would pass for one in offset.
-[[nodiscard]] double SurfaceDistance(const SurfacePatch& a, const SurfacePatch& b, const MapperOptions& options);
+// would pass for one in offset. `directed`: both directions are known well; else only merge_angle_rad bounds the angle between them.
+[[nodiscard]] double SurfaceDistance(const SurfacePatch& a, const SurfacePatch& b, const MapperOptions& options, bool directed = true);
 
 // Whether one plane fits the points of both about as well as each one's own does: nowhere near a step, however gently a plane could lean
 // across it.

@@ -226,14 +226,17 @@ void Mapper::Empty(size_t i) {
   graph_.surfaces[i].id = id;
 }
 
-// The older of two surfaces stays; the younger keeps its slot, empty.
-void Mapper::MergeDuplicates() {
+// The older of two surfaces stays; the younger keeps its slot, empty. `settled`: all views of what was seen so far are there and poses are
+// solved; of a surface that one keyframe alone saw the direction is not waited for any longer.
+void Mapper::MergeDuplicates(bool settled) {
   std::vector<MapSurface>& surfaces = graph_.surfaces;
   for (size_t i = 0; i < surfaces.size(); ++i) {
     for (size_t k = i + 1; k < surfaces.size(); ++k) {
       if (surfaces[i].observations.empty()) break;
       if (surfaces[k].observations.empty()) continue;
-      if (std::isinf(SurfaceDistance(tracks_[i].patch, tracks_[k].patch, options_)) || !FitOnePlane(tracks_[i], tracks_[k], options_))
+      const bool directed = !settled || (surfaces[i].observations.size() > 1 && surfaces[k].observations.size() > 1);
+      if (std::isinf(SurfaceDistance(tracks_[i].patch, tracks_[k].patch, options_, directed)) ||
+          !FitOnePlane(tracks_[i], tracks_[k], options_))
         continue;
       Absorb({surfaces[k], tracks_[k]}, graph_.keyframes, &surfaces[i], &tracks_[i]);
       Empty(k);
@@ -263,7 +266,7 @@ void Mapper::OnPosesChanged() {
   for (size_t i = 0; i < graph_.surfaces.size(); ++i) {
     if (!graph_.surfaces[i].observations.empty()) Recompute(graph_.keyframes, &graph_.surfaces[i], &tracks_[i]);
   }
-  MergeDuplicates();
+  MergeDuplicates(!graph_.planar);
   if (!graph_.planar) DropEchoCells();
   if (graph_.keyframes.empty()) return;
   const Keyframe& newest = graph_.keyframes.back();

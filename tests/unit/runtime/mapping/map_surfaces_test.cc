@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 
 namespace plumb::runtime {
@@ -66,6 +67,17 @@ TEST(FitOnePlane, TakesPartsOfOneWallInSpiteOfDrift) {
 TEST(FitOnePlane, RefusesAStep) {
   EXPECT_FALSE(FitOnePlane(WallAt(0, 2, 1), WallAt(2.2, 4, 1.15), {}));
   EXPECT_FALSE(FitOnePlane(WallAt(2.2, 4, 1.15), WallAt(0, 2, 1), {}));
+}
+
+TEST(SurfaceDistance, BoundsTheAngleByTheShortersLengthIfBothDirectionsAreKnown) {
+  const SurfaceTrack wall = WallAt(0, 3, 1);
+  const auto distance_m = [&](double lean, bool directed) {
+    return SurfaceDistance(wall.patch, Patch(1, 2, 1 - 0.5 * lean, lean, 1, Everywhere).track.patch, {}, directed);
+  };
+  EXPECT_TRUE(std::isfinite(distance_m(0.02, true)));
+  EXPECT_TRUE(std::isinf(distance_m(0.05, true)));
+  EXPECT_TRUE(std::isfinite(distance_m(0.05, false)));
+  EXPECT_TRUE(std::isinf(distance_m(0.11, false))) << "a wall that was built askew";
 }
 
 TEST(IsEcho, IsAFewReturnsInFrontOfAWallSeenEverywhere) {

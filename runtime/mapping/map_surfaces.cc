@@ -17,6 +17,7 @@ constexpr double kEndOffset_m = 0.03, kMinAngle_rad = 0.02;
 constexpr double kMaxJointOff =
     0.5;  // of the merge distance: how much further from the common plane than from its own a part's points may be, rms
 constexpr double kEchoPoints = 0.2, kEchoFacingCos = 0.94, kEchoDistance_m = 0.15, kEchoShare = 0.6;
+constexpr uint32_t kEchoViews = 5;         // times an echo's
 constexpr double kEdge_m = 0.5 * kCell_m;  // a cell's mean point lies inside the surface's edge by about this
 
 double MeanSquareDistance(const PlaneStats& sum, const Plane& plane) {
@@ -70,9 +71,15 @@ bool AreWithin(const Ball& a, const Ball& b, double margin_m) {
   return (a.center - b.center).squaredNorm() <= reach_m * reach_m;
 }
 
+// From its ball, what a surface may cover or have seen.
+double EchoReach_m() { return kEchoDistance_m + std::numbers::sqrt2 * SurfacePatch::CoverMargin_m(); }
+
 // Bounds of b in a's coordinates.
 struct Bounds {
   Eigen::Vector2d lo, hi;
+  [[nodiscard]] bool Meet(const SurfacePatch& a) const {
+    return (lo.array() <= a.hi().array()).all() && (hi.array() >= a.lo().array()).all();
+  }
 };
 Bounds BoundsIn(const SurfacePatch& a, const SurfacePatch& b) {
   Bounds bounds;
@@ -102,11 +109,12 @@ TrackedSurface SurfaceOf(const Segment& segment, const Keyframe& keyframe) {
   return tracked;
 }
 
-double SurfaceDistance(const SurfacePatch& a, const SurfacePatch& b, const MapperOptions& options) {
+double SurfaceDistance(const SurfacePatch& a, const SurfacePatch& b, const MapperOptions& options, bool directed) {
   constexpr double kApart = std::numeric_limits<double>::infinity();
   if (a.kind() != b.kind() || a.plane().n.dot(b.plane().n) < kSameFacingCos) return kApart;
   const double shorter_m = std::min(a.hi().x() - a.lo().x(), b.hi().x() - b.lo().x());
-  const double max_angle_rad = std::clamp(kEndOffset_m / shorter_m, kMinAngle_rad, std::max(kMinAngle_rad, options.merge_angle_rad));
+  const double end_angle_rad = directed ? kEndOffset_m / shorter_m : options.merge_angle_rad;
+  const double max_angle_rad = std::clamp(end_angle_rad, kMinAngle_rad, std::max(kMinAngle_rad, options.merge_angle_rad));
   if (NormalAngle(a.plane(), b.plane(), a.kind()) > max_angle_rad) return kApart;
   const Bounds other = BoundsIn(a, b);
   const Eigen::Vector2d from = a.lo().cwiseMax(other.lo), to = a.hi().cwiseMin(other.hi);
@@ -146,10 +154,9 @@ bool FitOnePlane(const SurfaceTrack& a, const SurfaceTrack& b, const MapperOptio
 bool IsEcho(const MapSurface& b, const SurfacePatch& b_patch, const std::vector<MapSurface>& surfaces,
             const std::vector<SurfaceTrack>& tracks, const std::vector<Ball>& balls) {
   const Ball b_ball = b_patch.ball();
-  const double margin_m = kEchoDistance_m + std::numbers::sqrt2 * SurfacePatch::CoverMargin_m();
   std::vector<const SurfacePatch*> stronger;
   for (size_t i = 0; i < surfaces.size(); ++i) {
-    if (!AreWithin(b_ball, balls[i], margin_m)) continue;
+    if (!AreWithin(b_ball, balls[i], EchoReach_m())) continue;
     const MapSurface& a = surfaces[i];
     const bool strong = a.kind == b.kind && !a.observations.empty() && b.num_points <= kEchoPoints * a.num_points;
     if (strong && a.plane.n.dot(b.plane.n) >= kEchoFacingCos) stronger.push_back(&tracks[i].patch);
@@ -160,6 +167,34 @@ bool IsEcho(const MapSurface& b, const SurfacePatch& b_patch, const std::vector<
     return std::any_of(stronger.begin(), stronger.end(), [&](const SurfacePatch* a) { return a->Covers(p, kEchoDistance_m); });
   });
   return static_cast<double>(covered) >= kEchoShare * static_cast<double>(cells.size());
+}
+
+std::vector<bool> EchoCells(const MapSurface& b, const SurfacePatch& b_patch, const std::vector<MapSurface>& surfaces,
+                            const std::vector<SurfaceTrack>& tracks, const std::vector<Ball>& balls) {
+  const Ball b_ball = b_patch.ball();
+  const std::vector<Eigen::Vector3d> cells = b_patch.CellPoints();
+  std::vector<bool> echo(cells.size(), false);
+  for (size_t i = 0; i < surfaces.size(); ++i) {
+    const MapSurface& a = surfaces[i];
+    const SurfacePatch& a_patch = tracks[i].patch;
+    if (!AreWithin(b_ball, balls[i], EchoReach_m())) continue;
+    if (a.observations.size() < kEchoViews || a.kind != b.kind || &a_patch == &b_patch || a.plane.n.dot(b.plane.n) < kEchoFacingCos ||
+        !BoundsIn(a_patch, b_patch).Meet(a_patch))
+      continue;
+    for (size_t c = 0; c < cells.size(); ++c) {
+      if (!echo[c]) echo[c] = a_patch.ViewsAt(cells[c], kEchoDistance_m) >= kEchoViews * b_patch.views()[c];
+    }
+  }
+  return echo;
+}
+
+bool TakeCells(const std::vector<bool>& gone, const MapperOptions& options, MapSurface* surface, SurfaceTrack* track) {
+  const auto left = static_cast<double>(std::count(gone.begin(), gone.end(), false));
+  if (left * kCell_m * kCell_m < options.min_segment_extent_m * options.min_segment_extent_m) return false;
+  track->patch.Forget(gone);
+  if (track->patch.hi().x() - track->patch.lo().x() + 2 * kEdge_m < options.min_segment_extent_m) return false;
+  UpdateExtent(*track, surface);
+  return true;
 }
 
 void Absorb(const TrackedSurface& b, const std::vector<Keyframe>& keyframes, MapSurface* a, SurfaceTrack* a_track) {
@@ -175,7 +210,7 @@ void Absorb(const TrackedSurface& b, const std::vector<Keyframe>& keyframes, Map
   }
   a_track->sum.Add(b.track.sum);
   UpdatePlane(keyframes, a->plane.n, a, a_track);
-  for (const Eigen::Vector3d& p : b.track.patch.CellPoints()) a_track->patch.Mark(p);
+  a_track->patch.MarkAll(b.track.patch);
   UpdateExtent(*a_track, a);
 }
 

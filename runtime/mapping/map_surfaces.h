@@ -25,8 +25,8 @@ struct TrackedSurface {
 
 // How far apart two surfaces are, at the ends of their overlap; infinity if they are not the same: other kind or facing, other direction,
 // offset too large, or a gap between them. Offsets are taken on the surfaces, never at the frame's origin, where an error in direction
-// would pass for one in offset.
-[[nodiscard]] double SurfaceDistance(const SurfacePatch& a, const SurfacePatch& b, const MapperOptions& options);
+// would pass for one in offset. `directed`: both directions are known well; else only merge_angle_rad bounds the angle between them.
+[[nodiscard]] double SurfaceDistance(const SurfacePatch& a, const SurfacePatch& b, const MapperOptions& options, bool directed = true);
 
 // False only of surfaces whose distance is infinity because they are far apart: a test of few steps, to be made first.
 [[nodiscard]] bool MayTouch(const Ball& a, const Ball& b, const MapperOptions& options);
@@ -41,6 +41,14 @@ struct TrackedSurface {
 // and `balls` (theirs) in the same order and may contain b.
 [[nodiscard]] bool IsEcho(const MapSurface& b, const SurfacePatch& b_patch, const std::vector<MapSurface>& surfaces,
                           const std::vector<SurfaceTrack>& tracks, const std::vector<Ball>& balls);
+
+// Which of b's cells are echoes though b as a whole is none: those right in front of or behind a cell that has been seen from many times as
+// many keyframes. In the order of its patch's cells; arguments as above.
+[[nodiscard]] std::vector<bool> EchoCells(const MapSurface& b, const SurfacePatch& b_patch, const std::vector<MapSurface>& surfaces,
+                                          const std::vector<SurfaceTrack>& tracks, const std::vector<Ball>& balls);
+
+// Takes cells from a surface. False if what is left is too small for one.
+[[nodiscard]] bool TakeCells(const std::vector<bool>& gone, const MapperOptions& options, MapSurface* surface, SurfaceTrack* track);
 
 // Adds b's observations and cells to a.
 void Absorb(const TrackedSurface& b, const std::vector<Keyframe>& keyframes, MapSurface* a, SurfaceTrack* a_track);

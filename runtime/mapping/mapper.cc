@@ -237,14 +237,17 @@ void Mapper::Empty(size_t i) {
   graph_.surfaces[i].id = id;
 }
 
-// The older of two surfaces stays; the younger keeps its slot, empty.
-void Mapper::MergeDuplicates() {
+// The older of two surfaces stays; the younger keeps its slot, empty. `settled`: all views of what was seen so far are there and poses are
+// solved; of a surface that one keyframe alone saw the direction is not waited for any longer.
+void Mapper::MergeDuplicates(bool settled) {
   std::vector<MapSurface>& surfaces = graph_.surfaces;
   for (size_t i = 0; i < surfaces.size(); ++i) {
     for (size_t k = i + 1; k < surfaces.size(); ++k) {
       if (surfaces[i].observations.empty()) break;
       if (surfaces[k].observations.empty() || !MayTouch(balls_[i], balls_[k], options_)) continue;
-      if (std::isinf(SurfaceDistance(tracks_[i].patch, tracks_[k].patch, options_)) || !FitOnePlane(tracks_[i], tracks_[k], options_))
+      const bool directed = !settled || (surfaces[i].observations.size() > 1 && surfaces[k].observations.size() > 1);
+      if (std::isinf(SurfaceDistance(tracks_[i].patch, tracks_[k].patch, options_, directed)) ||
+          !FitOnePlane(tracks_[i], tracks_[k], options_))
         continue;
       AbsorbInto(i, {surfaces[k], tracks_[k]});
       Empty(k);
@@ -256,6 +259,19 @@ void Mapper::MergeDuplicates() {
   }
 }
 
+void Mapper::DropEchoCells() {
+  std::vector<std::vector<bool>> gone(graph_.surfaces.size());
+  for (size_t i = 0; i < gone.size(); ++i) {
+    if (!graph_.surfaces[i].observations.empty())
+      gone[i] = EchoCells(graph_.surfaces[i], tracks_[i].patch, graph_.surfaces, tracks_, balls_);
+  }
+  for (size_t i = 0; i < gone.size(); ++i) {
+    if (std::find(gone[i].begin(), gone[i].end(), true) == gone[i].end()) continue;
+    if (!TakeCells(gone[i], options_, &graph_.surfaces[i], &tracks_[i])) Empty(i);
+    balls_[i] = tracks_[i].patch.ball();
+  }
+}
+
 void Mapper::OnPosesChanged() {
   for (Keyframe& keyframe : graph_.keyframes) {
     if (keyframe.merged) keyframe.T_map_kf = graph_.keyframes[keyframe.merged->into].T_map_kf * keyframe.merged->T_into_kf;
@@ -263,7 +279,8 @@ void Mapper::OnPosesChanged() {
   for (size_t i = 0; i < graph_.surfaces.size(); ++i) {
     if (!graph_.surfaces[i].observations.empty()) RecomputeSurface(i);
   }
-  MergeDuplicates();
+  MergeDuplicates(!graph_.planar);
+  if (!graph_.planar) DropEchoCells();
   if (graph_.keyframes.empty()) return;
   const Keyframe& newest = graph_.keyframes.back();
   T_map_odom_ = newest.T_map_kf * newest.T_odom_kf.inverse();

@@ -54,7 +54,8 @@ class Mapper {
   void Empty(size_t i);
   void ClosePlanarLoops(const KeyframeWindow& window);
   void CloseSpatialLoops();
-  void MergeDuplicates();
+  void MergeDuplicates(bool settled = false);
+  void DropEchoCells();
   void BoundKeyframes();
   void Merge(uint32_t keyframe, uint32_t into);
 

@@ -14,15 +14,19 @@ namespace plumb::runtime {
 namespace {
 
 constexpr double kSin15 = 0.25881904510252074, kCos15 = 0.9659258262890683;
-constexpr double kMaxStep_m = 0.012;        // between a surfel and its region's plane, beyond their uncertainties, ...
-constexpr double kMaxBend_rad = 0.03;       // ... and between their normals
+constexpr double kMaxStep_m = 0.012;   // between a surfel and its region's plane, beyond their uncertainties, ...
+constexpr double kMaxBend_rad = 0.03;  // ... and between their normals
 constexpr double kRefitGrowth = 1.1;
-constexpr double kMaxRmsSigmas = 1.5;       // of a region
-constexpr double kBandSigmas = 3.0;         // between a point and its segment's plane
-constexpr int kReach = 2;                   // voxels from a segment's surfels to points that may be its
-constexpr double kMinCosIncidence = 0.15;   // flatter rays are biased by the beam's width
+constexpr double kMaxRmsSigmas = 1.5;      // of a region
+constexpr double kBandSigmas = 3.0;        // between a point and its segment's plane
+constexpr int kReach = 2;                  // voxels from a segment's surfels to points that may be its
+constexpr double kMinCosIncidence = 0.15;  // flatter rays are biased by the beam's width
 constexpr double kMinSigma_m = 0.01;
-constexpr size_t kExplainStep = 3;          // every third point is enough to tell which planes are needed
+constexpr double kCoarse = 3;         // times the voxels, for what is far
+constexpr int kMinCoarsePoints = 20;  // of a surfel there
+constexpr double kTailShare = 0.25;   // of another plane's points about a cell: fewer beside so many are those points' noise
+constexpr double kTailFacingCos = 0.94;
+constexpr size_t kExplainStep = 3;  // every third point is enough to tell which planes are needed
 constexpr double kExplainSigmas = 2.0, kMinUnexplained = 0.5;
 
 // Surfels of one plane; `plane` is a surfel as large as the region.
@@ -110,11 +114,22 @@ struct Candidate {
   VoxelIndex cell_index;
   std::vector<PlaneStats> cells;  // each kCell_m square
 
-  void Add(const Eigen::Vector3d& p) {
-    const double u = axes.along.dot(p) / kCell_m, v = axes.across.dot(p) / kCell_m;
-    const uint32_t cell = cell_index.Insert(VoxelKey({u, v, 0})).first;
+  [[nodiscard]] Eigen::Vector3d Cell(const Eigen::Vector3d& p) const {
+    return {axes.along.dot(p) / kCell_m, axes.across.dot(p) / kCell_m, 0};
+  }
+  PlaneStats& CellAt(const Eigen::Vector3d& p) {
+    const uint32_t cell = cell_index.Insert(VoxelKey(Cell(p))).first;
     if (cell == cells.size()) cells.emplace_back();
-    cells[cell].Add(p);
+    return cells[cell];
+  }
+  // Points in the nine cells about p.
+  [[nodiscard]] double CountAbout(const Eigen::Vector3d& p) const {
+    double count = 0;
+    for (int k = 0; k < 9; ++k) {
+      const uint32_t cell = cell_index.Find(VoxelKey(Cell(p) + Eigen::Vector3d(k % 3 - 1, k / 3 - 1, 0)));
+      if (cell != VoxelIndex::kNone) count += cells[cell].count();
+    }
+    return count;
   }
 };
 
@@ -189,11 +204,11 @@ void FindMatches(const Eigen::Vector3d& p, const Eigen::Vector3d& sensor, const 
 
 // Where two planes meet or step, small "planes" fit the noise between them. From the largest on, a candidate stays if enough of its points
 // are not already explained by those that stay.
-void KeepUnexplained(const KeyframeWindow& window, const Reach& reach, std::vector<Candidate>* candidates) {
+void KeepUnexplained(const std::vector<View>& views, const Reach& reach, std::vector<Candidate>* candidates) {
   std::vector<std::vector<uint32_t>> points_of(candidates->size());
   std::vector<Match> matches;
   uint32_t num_points = 0;
-  for (const View& view : window.views()) {
+  for (const View& view : views) {
     for (size_t i = 0; i < view.points.size(); i += kExplainStep, ++num_points) {
       FindMatches(view.points[i].cast<double>(), view.sensor, reach, *candidates, kExplainSigmas, &matches);
       for (const Match& m : matches) points_of[m.candidate].push_back(num_points);
@@ -218,23 +233,103 @@ void AssignPoints(const View& view, const Reach& reach, std::vector<Candidate>* 
     for (const Match& m : matches) {
       if ((*candidates)[m.candidate].stays && (best == nullptr || m.distance_m < best->distance_m)) best = &m;
     }
-    if (best != nullptr && best->steep) (*candidates)[best->candidate].Add(p);
+    if (best != nullptr && best->steep) (*candidates)[best->candidate].CellAt(p).Add(p);
   }
+}
+
+// Of the points of a plane those with most noise are nearer to another one a few centimetres before or behind it, a door leaf or a pane.
+// Strewn over all of the first plane, they would make the second as large, or lean it. They go back.
+void ReturnTails(const Reach& reach, std::vector<Candidate>* candidates) {
+  struct Tail {
+    uint32_t from, cell, to;
+  };
+  std::vector<Tail> tails;
+  for (uint32_t i = 0; i < candidates->size(); ++i) {
+    const Candidate& c = (*candidates)[i];
+    for (uint32_t cell = 0; cell < c.cells.size(); ++cell) {
+      const Eigen::Vector3d p = c.cells[cell].centroid();
+      const std::vector<uint32_t>* const near = reach.At(p);
+      if (near == nullptr) continue;
+      double most = c.CountAbout(p) / kTailShare;
+      Tail tail{i, cell, i};
+      for (const uint32_t k : *near) {
+        const Candidate& other = (*candidates)[k];
+        if (k == i || !other.stays || other.plane.n.dot(c.plane.n) < kTailFacingCos ||
+            std::abs(other.plane.SignedDistance(p)) > kBandSigmas * other.sigma_m)
+          continue;
+        const double count = other.CountAbout(p);
+        if (count <= most) continue;
+        most = count;
+        tail.to = k;
+      }
+      if (tail.to != i) tails.push_back(tail);
+    }
+  }
+  for (const Tail& tail : tails) {
+    PlaneStats& cell = (*candidates)[tail.from].cells[tail.cell];
+    const PlaneStats moved = cell;
+    cell = {};
+    (*candidates)[tail.to].CellAt(moved.centroid()).Add(moved);
+  }
+}
+
+// What no segment's surfels are near to.
+std::vector<View> PointsFarFrom(const std::vector<Candidate>& candidates, const Reach& reach, const std::vector<View>& views) {
+  std::vector<View> rest;
+  for (const View& view : views) {
+    rest.push_back({view.sensor, {}, {}});
+    for (const Eigen::Vector3f& p : view.points) {
+      const std::vector<uint32_t>* const near = reach.At(p.cast<double>());
+      if (near == nullptr || std::none_of(near->begin(), near->end(), [&](uint32_t c) { return candidates[c].stays; }))
+        rest.back().points.push_back(p);
+    }
+  }
+  return rest;
+}
+
+// Of what the surfels show. `rest`: views without the points near any of the segments.
+std::vector<Segment> SegmentsOf(const std::vector<View>& views, const SurfelMap& surfels, const Eigen::Vector3d& up,
+                                const MapperOptions& options, std::vector<View>* rest) {
+  const std::vector<Region> regions = GrowRegions(surfels);
+  std::vector<Candidate> candidates = MakeCandidates(regions, up, options);
+  const Reach reach(candidates, surfels);
+  KeepUnexplained(views, reach, &candidates);
+  for (const View& view : views) AssignPoints(view, reach, &candidates);
+  ReturnTails(reach, &candidates);
+  std::vector<Segment> segments;
+  for (Candidate& c : candidates) {
+    const size_t before = segments.size();
+    for (Segment& segment : SplitCells(c.cells, c.kind, c.plane.n, c.axes, c.sigma_m, options)) {
+      // What is seen on two lines may have leaned its plane since the region was told to be a wall or a floor.
+      if (KindOf(segment.plane.n, up) == c.kind) segments.push_back(std::move(segment));
+    }
+    c.stays = segments.size() > before;
+  }
+  if (rest != nullptr) *rest = PointsFarFrom(candidates, reach, views);
+  return segments;
+}
+
+// Of points that make no planes in voxels of the usual size, as on a wall so far away that the scan's rings pass at most once through each.
+SurfelMap CoarseSurfels(const std::vector<View>& views, SurfelMapOptions options) {
+  options.voxel_m *= kCoarse;
+  options.min_minor_m *= kCoarse;
+  options.min_points = kMinCoarsePoints;
+  SurfelMap surfels(options);
+  for (const View& view : views) {
+    for (const Eigen::Vector3f& p : view.points) surfels.Insert(p.cast<double>(), view.sensor);
+    surfels.EndScan();
+  }
+  return surfels;
 }
 
 }  // namespace
 
 std::vector<Segment> ExtractSegments(const KeyframeWindow& window, const MapperOptions& options) {
   const Eigen::Vector3d up = window.T_odom_kf().linear().transpose() * Eigen::Vector3d::UnitZ();
-  const std::vector<Region> regions = GrowRegions(window.surfels());
-  std::vector<Candidate> candidates = MakeCandidates(regions, up, options);
-  const Reach reach(candidates, window.surfels());
-  KeepUnexplained(window, reach, &candidates);
-  for (const View& view : window.views()) AssignPoints(view, reach, &candidates);
-  std::vector<Segment> segments;
-  for (const Candidate& c : candidates) {
-    for (Segment& segment : SplitCells(c.cells, c.kind, c.plane.n, c.axes, c.sigma_m, options)) segments.push_back(std::move(segment));
-  }
+  std::vector<View> rest;
+  std::vector<Segment> segments = SegmentsOf(window.views(), window.surfels(), up, options, &rest);
+  const SurfelMap coarse = CoarseSurfels(rest, window.surfels().options());
+  for (Segment& far : SegmentsOf(rest, coarse, up, options, nullptr)) segments.push_back(std::move(far));
   return segments;
 }
 

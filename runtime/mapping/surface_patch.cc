@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "runtime/mapping/cell_planes.h"
 
@@ -29,11 +30,33 @@ void SurfacePatch::Follow(const Eigen::Isometry3d& T_map_kf, const Plane& plane)
   across_ = kind_ == SurfaceKind::kWall ? along_.cross(plane.n) : plane.n.cross(along_);
 }
 
-void SurfacePatch::Mark(const Eigen::Vector3d& p) {
+void SurfacePatch::Mark(const Eigen::Vector3d& p, uint32_t views) {
   const Eigen::Vector2d at = Coordinates(p);
   lo_ = lo_.cwiseMin(at);
   hi_ = hi_.cwiseMax(at);
-  if (index_.Insert(VoxelKey({at.x() / kCell_m, at.y() / kCell_m, 0})).second) cells_.push_back(at.cast<float>());
+  const auto [cell, is_new] = index_.Insert(VoxelKey({at.x() / kCell_m, at.y() / kCell_m, 0}));
+  if (is_new) {
+    cells_.push_back(at.cast<float>());
+    views_.push_back(0);
+  }
+  views_[cell] += views;
+}
+
+void SurfacePatch::MarkAll(const SurfacePatch& other) {
+  for (size_t i = 0; i < other.cells_.size(); ++i) Mark(other.Point(other.cells_[i].cast<double>()), other.views_[i]);
+}
+
+void SurfacePatch::Forget(const std::vector<bool>& gone) {
+  const std::vector<Eigen::Vector2f> cells = std::move(cells_);
+  const std::vector<uint32_t> views = std::move(views_);
+  index_ = VoxelIndex();
+  cells_.clear();
+  views_.clear();
+  lo_.setConstant(std::numeric_limits<double>::infinity());
+  hi_ = -lo_;
+  for (size_t i = 0; i < cells.size(); ++i) {
+    if (!gone[i]) Mark(Point(cells[i].cast<double>()), views[i]);
+  }
 }
 
 std::vector<Eigen::Vector3d> SurfacePatch::CellPoints() const {
@@ -54,6 +77,13 @@ bool SurfacePatch::Covers(const Eigen::Vector3d& p, double distance_m) const {
 }
 
 double SurfacePatch::CoverMargin_m() { return 2 * kCell_m; }
+
+uint32_t SurfacePatch::ViewsAt(const Eigen::Vector3d& p, double distance_m) const {
+  if (std::abs(plane_.SignedDistance(p)) > distance_m) return 0;
+  const Eigen::Vector2d at = Coordinates(p) / kCell_m;
+  const uint32_t cell = index_.Find(VoxelKey({at.x(), at.y(), 0}));
+  return cell == VoxelIndex::kNone ? 0 : views_[cell];
+}
 
 double SurfacePatch::area_m2() const { return kCell_m * cell_height_m_ * static_cast<double>(cells_.size()); }
 

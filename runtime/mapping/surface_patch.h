@@ -23,8 +23,12 @@ class SurfacePatch {
   SurfacePatch(uint32_t keyframe, const Eigen::Isometry3d& T_map_kf, const Plane& plane, SurfaceKind kind, const Eigen::Vector3d& at,
                double cell_height_m);
 
-  // Marks the cell of p and extends the bounds to p.
-  void Mark(const Eigen::Vector3d& p);
+  // Marks the cell of p as seen from so many keyframes more and extends the bounds to p.
+  void Mark(const Eigen::Vector3d& p, uint32_t views = 1);
+  // Marks the cells of another patch.
+  void MarkAll(const SurfacePatch& other);
+  // Forgets the cells for which gone[i] is true, in the order of cells(), and fits the bounds to those left.
+  void Forget(const std::vector<bool>& gone);
   // Moves onto the new plane after it or the keyframe's pose has changed.
   void Follow(const Eigen::Isometry3d& T_map_kf, const Plane& plane);
 
@@ -45,6 +49,10 @@ class SurfacePatch {
   // Coordinates of the first point marked in every cell, in that order; and the points.
   [[nodiscard]] const std::vector<Eigen::Vector2f>& cells() const { return cells_; }
   [[nodiscard]] std::vector<Eigen::Vector3d> CellPoints() const;
+  // From how many keyframes each cell was seen, in that order; and the one that p lies on, within distance_m of the plane: 0 if there is
+  // none.
+  [[nodiscard]] const std::vector<uint32_t>& views() const { return views_; }
+  [[nodiscard]] uint32_t ViewsAt(const Eigen::Vector3d& p, double distance_m) const;
   [[nodiscard]] double area_m2() const;
   // Whether p lies within distance_m of the plane and on or next to a cell.
   [[nodiscard]] bool Covers(const Eigen::Vector3d& p, double distance_m) const;
@@ -60,6 +68,7 @@ class SurfacePatch {
   Eigen::Vector3d anchor_, along_, across_;           // map frame
   VoxelIndex index_;
   std::vector<Eigen::Vector2f> cells_;  // coordinates of each cell's first point
+  std::vector<uint32_t> views_;         // of each cell
   Eigen::Vector2d lo_, hi_;
 };
 

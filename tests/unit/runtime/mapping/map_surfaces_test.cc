@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -79,6 +80,24 @@ TEST(MayTouch, IsTrueOfAllThatHaveADistance) {
   EXPECT_GT(far, 1000);
 }
 
+// The same seen from so many keyframes.
+TrackedSurface Seen(size_t views, const TrackedSurface& once) {
+  const std::vector<Keyframe> keyframes(views);
+  TrackedSurface out = once;
+  for (size_t i = 1; i < views; ++i) {
+    TrackedSurface again = once;
+    again.surface.observations[0].keyframe = static_cast<uint32_t>(i);
+    Absorb(again, keyframes, &out.surface, &out.track);
+  }
+  return out;
+}
+
+// Which of b's cells are left beside another surface.
+std::vector<bool> EchoCellsBeside(const TrackedSurface& b, const TrackedSurface& other) {
+  return EchoCells(b.surface, b.track.patch, {b.surface, other.surface}, {b.track, other.track},
+                   {b.track.patch.ball(), other.track.patch.ball()});
+}
+
 TEST(FitOnePlane, TakesPartsOfOneWallInSpiteOfDrift) {
   EXPECT_TRUE(FitOnePlane(WallAt(0, 2, 1), WallAt(2.2, 4, 1), {}));
   EXPECT_TRUE(FitOnePlane(WallAt(0, 2, 1), WallAt(2.2, 4, 1.02), {}));
@@ -88,6 +107,17 @@ TEST(FitOnePlane, TakesPartsOfOneWallInSpiteOfDrift) {
 TEST(FitOnePlane, RefusesAStep) {
   EXPECT_FALSE(FitOnePlane(WallAt(0, 2, 1), WallAt(2.2, 4, 1.15), {}));
   EXPECT_FALSE(FitOnePlane(WallAt(2.2, 4, 1.15), WallAt(0, 2, 1), {}));
+}
+
+TEST(SurfaceDistance, BoundsTheAngleByTheShortersLengthIfBothDirectionsAreKnown) {
+  const SurfaceTrack wall = WallAt(0, 3, 1);
+  const auto distance_m = [&](double lean, bool directed) {
+    return SurfaceDistance(wall.patch, Patch(1, 2, 1 - 0.5 * lean, lean, 1, Everywhere).track.patch, {}, directed);
+  };
+  EXPECT_TRUE(std::isfinite(distance_m(0.02, true)));
+  EXPECT_TRUE(std::isinf(distance_m(0.05, true)));
+  EXPECT_TRUE(std::isfinite(distance_m(0.05, false)));
+  EXPECT_TRUE(std::isinf(distance_m(0.11, false))) << "a wall that was built askew";
 }
 
 TEST(IsEcho, IsAFewReturnsInFrontOfAWallSeenEverywhere) {
@@ -113,6 +143,32 @@ TEST(IsEcho, IsNothingThatTheWallLeavesRoomFor) {
   EXPECT_FALSE(IsEchoOf(Patch(2, 3, 1.05, 0, 5, Everywhere), {wall})) << "a leaf in its doorway";
   EXPECT_FALSE(IsEchoOf(Patch(0.5, 1.5, 0.7, 0, 5, Everywhere), {wall})) << "a cupboard's front, seen past";
   EXPECT_FALSE(IsEchoOf(Patch(0, 5, 0.95, 0, 50, Everywhere), {wall})) << "a panelling seen half as often";
+}
+
+// A door leaf that a few noisy views made as wide as its wall.
+TEST(EchoCells, AreALeafsOutsideItsDoorway) {
+  const auto in_doorway = [](double x_m, double) { return x_m > 2 && x_m < 3; };
+  const TrackedSurface wall = Seen(6, Patch(0, 5, 1, 0, 100, [&](double x_m, double z_m) { return !in_doorway(x_m, z_m); }));
+  TrackedSurface leaf = Seen(5, Patch(0, 5, 1.06, 0, 100, in_doorway));
+  Absorb(Patch(0, 5, 1.06, 0, 5, Everywhere), {Keyframe()}, &leaf.surface, &leaf.track);
+  ASSERT_FALSE(IsEchoOf(leaf, {wall}));
+  ASSERT_NEAR(leaf.surface.length_m(), 5, 0.11);
+  const std::vector<bool> echo = EchoCellsBeside(leaf, wall);
+  EXPECT_EQ(std::count(echo.begin(), echo.end(), false), 200);
+  const std::vector<bool> of_wall = EchoCellsBeside(wall, leaf);
+  EXPECT_EQ(std::count(of_wall.begin(), of_wall.end(), true), 0);
+
+  ASSERT_TRUE(TakeCells(echo, {}, &leaf.surface, &leaf.track));
+  EXPECT_NEAR(leaf.surface.length_m(), 1, 0.11);
+  EXPECT_EQ(leaf.surface.cells.size(), 200u);
+  EXPECT_NEAR(leaf.surface.area_m2, 2, 1e-9);
+}
+
+TEST(TakeCells, LeavesNoScraps) {
+  TrackedSurface wall = Patch(0, 2, 1, 0, 1, Everywhere);
+  std::vector<bool> gone(wall.surface.cells.size(), true);
+  std::fill_n(gone.begin(), 10, false);
+  EXPECT_FALSE(TakeCells(gone, {}, &wall.surface, &wall.track));
 }
 
 }  // namespace

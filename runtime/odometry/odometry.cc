@@ -20,16 +20,18 @@
 namespace plumb::runtime {
 namespace {
 
-constexpr double kMaxTilt_rad = 0.1745;         // the sensor starts this upright
-constexpr double kLevelingVoxel_m = 1.0;        // wide enough for two rings on the floor
+constexpr double kMaxTilt_rad = 0.1745;   // the sensor starts this upright
+constexpr double kLevelingVoxel_m = 1.0;  // wide enough for two rings on the floor
 constexpr int kMinFirstPoints = 200;
-constexpr int kMaxFailures = 10;                // in a row, scans without points not counted; then a new map begins at the predicted pose
-constexpr double kLeastShare = 0.4;             // of what the last scan found on the map, the next finds so much; less is another place
-constexpr double kSureGap_s = 0.25;             // after longer gaps the robot may have turned any way
+constexpr int kMaxFailures = 10;     // in a row, scans without points not counted; then a new map begins at the predicted pose
+constexpr double kLeastShare = 0.4;  // of what the last scan found on the map, the next finds so much; less is another place
+// Of the usual share of inliers among matched points: below the first a scan may be misplaced, below the second it is.
+constexpr double kDoubtfulRatio = 0.9, kLeastRatio = 0.75, kRatioMemory = 0.1;
+constexpr double kSureGap_s = 0.25;  // after longer gaps the robot may have turned any way
 constexpr size_t kSearchPoints = 800;
 constexpr std::array<double, 7> kSearchYaw_rad = {0, 0.2, -0.2, 0.4, -0.4, 0.6, -0.6};
-constexpr double kMaxGivenSpeed_mps = 30.0;     // beyond, the given odometry has jumped
-constexpr double kPlanarSpacing_m = 0.04;       // of a planar laser's few points
+constexpr double kMaxGivenSpeed_mps = 30.0;  // beyond, the given odometry has jumped
+constexpr double kPlanarSpacing_m = 0.04;    // of a planar laser's few points
 constexpr double kBootstrapSpeed_mps = 0.03, kBootstrapTurn_radps = 0.03;
 
 }  // namespace
@@ -64,8 +66,9 @@ struct Odometry::Impl {
   void Start(const PreparedScan& prepared, const std::optional<GivenMotion>& given);
   [[nodiscard]] SweepPrior PriorAbout(const SweepGaussian& predicted, double stamp_s, double sweep_s, bool given) const;
   [[nodiscard]] RegistrationResult Align(const PreparedScan& prepared, const SweepPrior& prior, double gap_s) const;
-  [[nodiscard]] RegistrationResult Search(const PreparedScan& prepared, const SweepPrior& prior, const RegistrationOptions& registration,
-                                          bool headings) const;
+  [[nodiscard]] RegistrationOptions Fine() const;
+  [[nodiscard]] RegistrationResult Search(const PreparedScan& prepared, const SweepPrior& prior, bool headings) const;
+  RegistrationResult Fitted(const PreparedScan& prepared, const SweepPrior& prior, double gap_s);
   void RestartWithVelocity(const PreparedScan& second, const SweepPrior& prior, RegistrationResult* aligned);
   void Insert(const PreparedScan& prepared, const SweepMotion& motion);
   void Advance(const PreparedScan& prepared, const RegistrationResult& aligned, const std::optional<GivenMotion>& given);
@@ -79,10 +82,11 @@ struct Odometry::Impl {
   bool started = false;
   // If the first scan told which way is up; else z of the odometry's frame is the sensor's own axis, which may lie.
   std::optional<LevelMotion> level;
-  int failures = 0;         // in a row: nothing says where the robot went meanwhile
-  int misfits = 0;          // of these, scans with enough points: the map is not of this place
+  int failures = 0;  // in a row: nothing says where the robot went meanwhile
+  int misfits = 0;   // of these, scans with enough points: the map is not of this place
   EstimatedSweep last;
-  double found_share = 0;   // of the last registered scan's points that lay on the map
+  double found_share = 0;              // of the last registered scan's points that lay on the map
+  double usual_ratio = 0;              // of points near a plane of the map, those that lie on it: running mean of registered scans
   double prediction_error2_m2 = 0.04;  // running mean square of what predictions move points by, wrongly
 };
 
@@ -142,24 +146,27 @@ SweepPrior Odometry::Impl::PriorAbout(const SweepGaussian& predicted, double sta
   return prior;
 }
 
-RegistrationResult Odometry::Impl::Align(const PreparedScan& prepared, const SweepPrior& prior, double gap_s) const {
+RegistrationOptions Odometry::Impl::Fine() const {
   RegistrationOptions registration;
   registration.max_iterations = options.max_iterations;
   registration.range_sigma_m = options.range_sigma_m;
+  return registration;
+}
+
+RegistrationResult Odometry::Impl::Align(const PreparedScan& prepared, const SweepPrior& prior, double gap_s) const {
   const double expected_m = 3 * std::sqrt(prediction_error2_m2);
   const bool unsure = failures > 0 || gap_s > kSureGap_s || expected_m > 0.5 * options.voxel_m;
-  if (!unsure) {
-    registration.initial_kernel_m = std::clamp(expected_m, 0.1, options.voxel_m);
-    return RegisterSweep(prepared.points, prepared.sweep_s > 0, map, prior, registration);
-  }
-  registration.initial_kernel_m = 2 * options.voxel_m;
-  registration.search_neighbours = true;
-  return Search(prepared, prior, registration, gap_s > kSureGap_s || failures > 0);
+  if (unsure) return Search(prepared, prior, gap_s > kSureGap_s || failures > 0);
+  RegistrationOptions registration = Fine();
+  registration.initial_kernel_m = std::clamp(expected_m, 0.1, options.voxel_m);
+  return RegisterSweep(prepared.points, prepared.sweep_s > 0, map, prior, registration);
 }
 
 // Starts from several headings, since registration finds home only from some ten degrees, on few points; then from the best on all.
-RegistrationResult Odometry::Impl::Search(const PreparedScan& prepared, const SweepPrior& prior, const RegistrationOptions& registration,
-                                          bool headings) const {
+RegistrationResult Odometry::Impl::Search(const PreparedScan& prepared, const SweepPrior& prior, bool headings) const {
+  RegistrationOptions coarse = Fine();
+  coarse.initial_kernel_m = 2 * options.voxel_m;
+  coarse.search_neighbours = true;
   std::vector<SweepPoint> few;
   const size_t step = prepared.points.size() / kSearchPoints + 1;
   for (size_t i = 0; i < prepared.points.size(); i += step) few.push_back(prepared.points[i]);
@@ -173,13 +180,12 @@ RegistrationResult Odometry::Impl::Search(const PreparedScan& prepared, const Sw
     motion.T_end = motion.T_start * prior.mean.T_start.inverse() * prior.mean.T_end;
     SweepPrior turned = prior;
     turned.MoveTo(motion);
-    const RegistrationResult r = RegisterSweep(few, prepared.sweep_s > 0, map, turned, registration);
+    const RegistrationResult r = RegisterSweep(few, prepared.sweep_s > 0, map, turned, coarse);
     if (r.num_inliers <= most) continue;
     most = r.num_inliers;
     best.MoveTo(r.motion);
   }
-  RegistrationOptions fine = registration;
-  fine.search_neighbours = false;
+  RegistrationOptions fine = Fine();
   fine.initial_kernel_m = 0.5 * options.voxel_m;
   return RegisterSweep(prepared.points, prepared.sweep_s > 0, map, best, fine);
 }
@@ -198,6 +204,28 @@ void Odometry::Impl::RestartWithVelocity(const PreparedScan& second, const Sweep
   Insert(*first, last.motion);
   const RegistrationResult again = Align(second, PriorAbout(better, second.scan.stamp_s, second.sweep_s, last.given.has_value()), 0);
   if (again.ok) *aligned = again;
+}
+
+// A scan in its place, or where it was predicted if nothing says that it fits there.
+RegistrationResult Odometry::Impl::Fitted(const PreparedScan& prepared, const SweepPrior& prior, double gap_s) {
+  RegistrationResult aligned = Align(prepared, prior, gap_s);
+  if (aligned.ok && aligned.inlier_ratio < kDoubtfulRatio * usual_ratio) {
+    const RegistrationResult again = Search(prepared, prior, true);
+    if (again.ok && again.num_inliers > aligned.num_inliers) aligned = again;
+  }
+  if (aligned.ok && first) RestartWithVelocity(prepared, prior, &aligned);
+  const double found = prepared.points.empty() ? 0 : static_cast<double>(aligned.num_inliers) / static_cast<double>(prepared.points.size());
+  // A floor, a ceiling and some wall or other are found anywhere; and a misplaced scan crosses the planes that it is near. Once in the map
+  // it would draw the next ones after it.
+  aligned.ok = aligned.ok && found >= kLeastShare * found_share && aligned.inlier_ratio >= kLeastRatio * usual_ratio;
+  if (!aligned.ok) {
+    aligned.motion = prior.mean;
+    aligned.covariance = prior.covariance;
+    return aligned;
+  }
+  found_share = found;
+  usual_ratio += (usual_ratio > 0 ? kRatioMemory : 1) * (aligned.inlier_ratio - usual_ratio);
+  return aligned;
 }
 
 void Odometry::Impl::LearnPredictionError(const SweepMotion& predicted, const SweepMotion& actual) {
@@ -242,17 +270,7 @@ OdometryResult Odometry::Register(const Scan& scan, const std::optional<GivenMot
     const SweepPrior prior = s.PriorAbout(PredictSweep(s.last, scan.stamp_s, prepared.sweep_s, given, s.up()), scan.stamp_s,
                                           prepared.sweep_s, given.has_value());
     const double gap_s = scan.stamp_s - s.last.stamp_s - s.last.sweep_s;
-    RegistrationResult aligned = s.Align(prepared, prior, gap_s);
-    if (aligned.ok && s.first) s.RestartWithVelocity(prepared, prior, &aligned);
-    const double found =
-        prepared.points.empty() ? 0 : static_cast<double>(aligned.num_inliers) / static_cast<double>(prepared.points.size());
-    // A floor, a ceiling and some wall or other are found anywhere.
-    aligned.ok = aligned.ok && found >= kLeastShare * s.found_share;
-    if (aligned.ok) s.found_share = found;
-    if (!aligned.ok) {
-      aligned.motion = prior.mean;
-      aligned.covariance = prior.covariance;
-    }
+    const RegistrationResult aligned = s.Fitted(prepared, prior, gap_s);
     s.failures = aligned.ok ? 0 : s.failures + 1;
     if (aligned.ok && !s.first) s.LearnPredictionError(prior.mean, aligned.motion);
     if (!too_few) s.misfits = aligned.ok ? 0 : s.misfits + 1;
@@ -260,7 +278,7 @@ OdometryResult Odometry::Register(const Scan& scan, const std::optional<GivenMot
     if (result.restarted) {
       s.map = SurfelMap(s.map.options());
       s.misfits = s.failures = 0;
-      s.found_share = 0;
+      s.found_share = s.usual_ratio = 0;
     }
     if (aligned.ok || result.restarted) s.Insert(prepared, aligned.motion);
     if (aligned.ok && s.level) s.level->Learn(aligned.motion.T_start, aligned.covariance.topLeftCorner<3, 3>());

@@ -178,12 +178,15 @@ TEST(Odometry, LevelsATiltedStart) {
       (Eigen::AngleAxisd(0.08, Eigen::Vector3d::UnitX()) * Eigen::AngleAxisd(-0.06, Eigen::Vector3d::UnitY())).toRotationMatrix();
   const test::SyntheticLidar lidar(test::MakeHouse());
   Odometry odometry;
-  const OdometryResult r = odometry.Register(lidar.Sweep([&](double) {
-    Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-    T.translation() << 7, 3, 1.0;
-    T.linear() = tilt;
-    return T;
-  }, 0), std::nullopt);
+  const OdometryResult r = odometry.Register(lidar.Sweep(
+                                                 [&](double) {
+                                                   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+                                                   T.translation() << 7, 3, 1.0;
+                                                   T.linear() = tilt;
+                                                   return T;
+                                                 },
+                                                 0),
+                                             std::nullopt);
   ASSERT_TRUE(r.ok);
   const Eigen::Vector3d up = r.T_odom_lidar.linear() * tilt.transpose() * Eigen::Vector3d::UnitZ();
   EXPECT_LT(std::acos(std::min(1.0, up.z())), 0.006);
@@ -241,6 +244,25 @@ TEST(Odometry, EmptyAndBrokenScansGetThePrediction) {
     EXPECT_TRUE(r.T_odom_lidar.matrix().allFinite());
     EXPECT_LT((T_plan_odom * r.T_odom_lidar.translation() - drive.At(t).translation()).norm(), 0.05) << i;
     for (const Eigen::Vector3f& p : r.deskewed.points) ASSERT_TRUE(p.allFinite());
+  }
+}
+
+// Enough of them lie on some plane or other, but most pass by those that they are near: in the map they would draw the next scans off.
+TEST(Odometry, ScansThatCrossTheMapAreLeftOut) {
+  const test::Drive drive = test::HouseDrive();
+  const test::SyntheticLidar lidar(test::MakeHouse(), Sparse());
+  Odometry odometry;
+  Eigen::Isometry3d T_plan_odom = Eigen::Isometry3d::Identity();
+  for (int i = 0; i < 40; ++i) {
+    const double t = kPeriod_s * i;
+    Scan scan = lidar.Sweep([&](double s) { return drive.At(s); }, t);
+    const bool crosses = i >= 25 && i < 28;
+    for (size_t k = 0; crosses && k < scan.points.size(); k += 2) scan.points[k] *= 1.06f;
+    const OdometryResult r = odometry.Register(scan, std::nullopt);
+    if (i == 0) T_plan_odom = drive.At(0) * r.T_odom_lidar.inverse();
+    EXPECT_EQ(r.ok, !crosses) << i;
+    EXPECT_FALSE(r.restarted);
+    EXPECT_LT((T_plan_odom * r.T_odom_lidar.translation() - drive.At(t).translation()).norm(), 0.05) << i;
   }
 }
 

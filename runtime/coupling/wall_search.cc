@@ -18,6 +18,7 @@ constexpr size_t kMinLines = 20;                            // that end on it, a
 constexpr double kMinPassedRatio = 0.6;                     // of those that meet the planned place
 constexpr double kBelowTop_m = 0.3;                         // furniture up to a ceiling leaves this much
 constexpr double kMinClosed = 0.9;                          // of the face's length, if the planned place cannot be seen
+constexpr double kMostSeenOff = 3;                          // of the offset where the wall is least off
 constexpr double kRivalNats = 3;                            // a candidate that is better by less is no better
 constexpr double kSameOffset_m = 0.15, kSameYaw_rad = 0.1;  // one wall's two faces tell the same to this
 
@@ -66,6 +67,9 @@ class Search {
     // Gated where the wall is least off: a long one that is turned is off by more than a metre away from there.
     const auto [a, b] = EndOffsets_m(patch, surface);
     if (a * b > 0 && std::min(std::abs(a), std::abs(b)) > options_.far_offset_m) return std::nullopt;
+    // What is seen farther off than that is not this wall's, however the two lines cross.
+    const Eigen::Vector2d seen_at = 0.5 * (patch.start + patch.end);
+    if (std::abs(n.head<2>().dot(seen_at - surface.start)) > kMostSeenOff * options_.far_offset_m) return std::nullopt;
     const WallDeviation deviation = DeviationOf(patch, MakeFace(frames_[surface.wall.index()], surface), yaw);
     if (!IsProven(patch, surface, to - from)) return std::nullopt;
     const double yaw_sigmas = yaw / options_.yaw_tau1_rad;

@@ -119,7 +119,7 @@ struct GraphEstimator::Impl {
     if (!polished.usable) return;
     std::vector<Keyframe>& keyframes = mapper.mutable_graph().keyframes;
     for (size_t i = 0; i < keyframes.size(); ++i) keyframes[i].T_map_kf = polished.T_map_kf[i];
-    mapper.OnPosesChanged();
+    mapper.OnPosesChanged(true);
   }
 
   // Between two solves over everything, which cost more the larger the map is, only the newest keyframes are laid on it; those of a planar
@@ -233,13 +233,14 @@ struct GraphEstimator::Impl {
     std::optional<PlanEstimate> judged;
     if (requested && placed()) {
       Mapper map = mapper;
+      map.Flush();
       judged.emplace(estimate).OptimizeFinally(map);
     } else if (changed && placed() && static_cast<double>(num_keyframes) >= kDoorwayGrowth * static_cast<double>(doorways_judged_at)) {
       doorways_judged_at = num_keyframes;
       estimate.JudgeDoorways(mapper.graph());
     }
-    const std::optional<Eigen::Isometry3d> T_plan_map = placed() ? std::optional(estimate.T_plan_map()) : std::nullopt;
-    options.on_update({stamp_s, verdict, T_plan_map, Deviations(judged ? *judged : estimate), requested});
+    const PlanEstimate& told = judged ? *judged : estimate;
+    options.on_update({stamp_s, verdict, placed() ? std::optional(told.T_plan_map()) : std::nullopt, Deviations(told), requested});
   }
 
   [[nodiscard]] DeviationReport Deviations(const PlanEstimate& of) const {

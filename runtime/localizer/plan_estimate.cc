@@ -35,7 +35,7 @@ JointOptions PlanEstimate::SolverOptions(const SGraph& map) const {
   return out;
 }
 
-bool PlanEstimate::Solve(Mapper& mapper, bool covariances, bool fit_tolerance) {
+bool PlanEstimate::Solve(Mapper& mapper, bool covariances, bool judging) {
   std::vector<Match> matches = MatchSurfaces(mapper.graph(), *plan_, T_plan_map_, known_, options_->coupling);
   // Whatever stands where a wall is missing is not that wall.
   std::erase_if(matches, [&](const Match& m) {
@@ -44,7 +44,7 @@ bool PlanEstimate::Solve(Mapper& mapper, bool covariances, bool fit_tolerance) {
   if (matches.empty()) return false;
   JointOptions options = SolverOptions(mapper.graph());
   options.covariances = covariances;
-  options.fit_tolerance = fit_tolerance;
+  options.fit_tolerance = judging;
   JointResult solved = OptimizeJointly(mapper.graph(), *plan_, matches, T_plan_map_, options);
   if (solved.T_map_kf.empty()) return false;  // unusable; a solution short of its last digit is not
   joint_ = std::move(solved);
@@ -53,7 +53,7 @@ bool PlanEstimate::Solve(Mapper& mapper, bool covariances, bool fit_tolerance) {
   for (const WallEstimate& wall : joint_.walls) known_[wall.wall.index()] = wall.deviation;
   std::vector<Keyframe>& keyframes = mapper.mutable_graph().keyframes;
   for (size_t i = 0; i < keyframes.size() && i < joint_.T_map_kf.size(); ++i) keyframes[i].T_map_kf = joint_.T_map_kf[i];
-  mapper.OnPosesChanged();
+  mapper.OnPosesChanged(judging);
   return true;
 }
 

@@ -43,7 +43,8 @@ class PlanEstimate {
   [[nodiscard]] const WallChanges& changes() const { return changes_; }  // as last judged
 
  private:
-  bool Solve(Mapper& mapper, bool covariances, bool fit_tolerance);
+  // `judging`: with all that the last word on walls rests on.
+  bool Solve(Mapper& mapper, bool covariances, bool judging);
   void FindOtherShapes(const SGraph& map);
   [[nodiscard]] WallId WallOf(const Match& match) const { return plan_->surfaces[match.plan_surface.index()].wall; }
 

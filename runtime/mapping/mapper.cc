@@ -237,8 +237,7 @@ void Mapper::Empty(size_t i) {
   graph_.surfaces[i].id = id;
 }
 
-// The older of two surfaces stays; the younger keeps its slot, empty. `settled`: all views of what was seen so far are there and poses are
-// solved; of a surface that one keyframe alone saw the direction is not waited for any longer.
+// The older of two surfaces stays; the younger keeps its slot, empty. `settled` as in OnPosesChanged().
 void Mapper::MergeDuplicates(bool settled) {
   std::vector<MapSurface>& surfaces = graph_.surfaces;
   for (size_t i = 0; i < surfaces.size(); ++i) {
@@ -272,15 +271,15 @@ void Mapper::DropEchoCells() {
   }
 }
 
-void Mapper::OnPosesChanged() {
+void Mapper::OnPosesChanged(bool settled) {
   for (Keyframe& keyframe : graph_.keyframes) {
     if (keyframe.merged) keyframe.T_map_kf = graph_.keyframes[keyframe.merged->into].T_map_kf * keyframe.merged->T_into_kf;
   }
   for (size_t i = 0; i < graph_.surfaces.size(); ++i) {
     if (!graph_.surfaces[i].observations.empty()) RecomputeSurface(i);
   }
-  MergeDuplicates(!graph_.planar);
-  if (!graph_.planar) DropEchoCells();
+  MergeDuplicates(settled && !graph_.planar);
+  if (settled && !graph_.planar) DropEchoCells();
   if (graph_.keyframes.empty()) return;
   const Keyframe& newest = graph_.keyframes.back();
   T_map_odom_ = newest.T_map_kf * newest.T_odom_kf.inverse();

@@ -40,8 +40,10 @@ class Mapper {
   [[nodiscard]] SGraph& mutable_graph() { return graph_; }
 
   // After keyframe poses in mutable_graph() were changed: recomputes surface planes and extents, merges what now coincides,
-  // and takes T_map_odom from the newest keyframe. O(observations + surfaces^2).
-  void OnPosesChanged();
+  // and takes T_map_odom from the newest keyframe. `settled`: the poses are those of the last solve, and nothing more is to be seen of what
+  // was seen from one keyframe alone; then that is merged whatever its direction, and cells that are echoes are taken from their surfaces
+  // for good. O(observations + surfaces^2).
+  void OnPosesChanged(bool settled = false);
 
  private:
   [[nodiscard]] bool WindowIsFull(double stamp_s, const Eigen::Isometry3d& T_odom_lidar) const;

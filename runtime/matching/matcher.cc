@@ -23,7 +23,7 @@ constexpr size_t kNearbyRays = 2000;  // enough to tell 0.3 m from 0
 constexpr int kNearbyDirections = 8;
 constexpr int kLeastPlanes = 3;  // with fewer no place is accepted
 constexpr int kFinalistsPerKept = 2;
-constexpr size_t kRefinedOnRays = 2;  // the best and its rival
+constexpr size_t kRefinedOnRays = 2;  // at least: the best and its rival
 constexpr size_t kAliasedFinalists = 8;
 constexpr double kSensorHeights_m[] = {0.3, 0.6, 0.9, 1.2, 1.5};
 constexpr double kLowestMargin_m = 0.1;
@@ -49,8 +49,20 @@ class PoseSearch {
     oneapi::tbb::parallel_for(size_t{0}, candidates.size(),
                               [&](size_t i) { candidates[i].rays = JudgeRays(plan, map, candidates[i].fit.pose, options); });
     candidates = SortAndMerge(std::move(candidates));
-    for (size_t i = 0; i < std::min(candidates.size(), kRefinedOnRays); ++i) RefineOnRays(map, candidates[i]);
+    RefineThatMatter(map, candidates);
     return SortAndMerge(std::move(candidates));
+  }
+
+  // The best, and all that might be its rivals if they gained as much as others did. `sorted`: best first.
+  void RefineThatMatter(const MapView& map, std::vector<Candidate>& sorted) const {
+    double best = -1e300, gained = 0;
+    for (size_t i = 0; i < sorted.size(); ++i) {
+      const double before = sorted[i].score();
+      if (i >= kRefinedOnRays && before + gained + options.accept_margin_nats < best) return;
+      RefineOnRays(map, sorted[i]);
+      gained = std::max(gained, sorted[i].score() - before);
+      best = std::max(best, sorted[i].score());
+    }
   }
 
   // Log-likelihood that the candidate's place gains at most in a plan of another scale.

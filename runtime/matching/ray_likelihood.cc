@@ -78,7 +78,7 @@ class Judge {
       result.other = kRandom;
       result.in_front = !result.explained;
     } else if (beyond_m > 3 * model_.deviation_sigma_m && !result.explained) {
-      if (plan_.NearOpening(origin + furthest_m * direction, kOpeningMargin_m)) return {};
+      if (plan_.NearOpening(origin + furthest_m * direction, kOpeningMargin_m)) return {.triangle = result.triangle};
       result.other = kThrough;
       result.through = beyond_m > kThroughDepth_m && std::abs(hit.solid.normal.z()) < 0.5f;
     } else {

@@ -1,5 +1,6 @@
 #include "runtime/matching/wall_grid.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace plumb::runtime {

@@ -203,9 +203,11 @@ class Optimizer {
   }
 
   [[nodiscard]] std::map<WallId, PatchDisagreement> Disagreements() const {
-    std::map<WallId, Eigen::Vector2d> estimates;
-    for (size_t w = 0; w < state_.walls.size(); ++w)
-      estimates[state_.wall_ids[w]] = {state_.walls[w][kWallOffset], state_.walls[w][kWallYaw]};
+    std::map<WallId, Eigen::Vector3d> estimates;
+    for (size_t w = 0; w < state_.walls.size(); ++w) {
+      const auto& wall = state_.walls[w];
+      estimates[state_.wall_ids[w]] = {wall[kWallOffset], wall[kWallYaw], wall[kWallThickness]};
+    }
     return FindDisagreements(map_, plan_, frames_, matches_, Poses(state_), Place(), estimates, state_.bias_m, options_);
   }
 

@@ -58,7 +58,9 @@ std::vector<LevelVote> LevelVotes(const SGraph& map, const AGraph& plan, const s
   for (size_t v = 0; v < votes.size(); ++v) {
     const SurfaceKind kind = map.surfaces[matches[votes[v].match].map_surface].kind;
     votes[v].share = 0;
-    for (const auto& [room, n] : points[v]) votes[v].share += n / totals[{room, kind}];
+    for (const auto& [room, n] : points[v]) {
+      if (n > 0) votes[v].share += n / totals[{room, kind}];
+    }
   }
   return votes;
 }

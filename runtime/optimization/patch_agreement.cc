@@ -41,15 +41,17 @@ PatchDisagreement Compare(const std::vector<Said>& patches) {
 std::map<WallId, PatchDisagreement> FindDisagreements(const SGraph& map, const AGraph& plan, const std::vector<WallFrame>& frames,
                                                       const std::vector<Match>& matches, const std::vector<Eigen::Isometry3d>& T_map_kf,
                                                       const Eigen::Isometry3d& T_plan_map,
-                                                      const std::map<WallId, Eigen::Vector2d>& estimates, double bias_m,
+                                                      const std::map<WallId, Eigen::Vector3d>& estimates, double bias_m,
                                                       const JointOptions& options) {
   const double reach = kLetGo * options.observation_loss;
   std::map<WallId, std::vector<Said>> walls;
   for (const Match& match : matches) {
     if (!match.plan_surface.valid()) continue;
     for (const WallMeasurement& m : MeasureWalls(map, plan, frames, {match}, T_map_kf, T_plan_map, options)) {
-      const Said said{m.At(bias_m), m.covariance.inverse()};
-      const Eigen::Vector2d off = said.deviation - estimates.at(m.wall);
+      const Eigen::Vector3d& estimate = estimates.at(m.wall);
+      const double side = MakeFace(frames[m.wall.index()], plan.surfaces[match.plan_surface.index()]).side();
+      const Said said{m.At(bias_m) - Eigen::Vector2d(0.5 * side * estimate.z(), 0), m.covariance.inverse()};
+      const Eigen::Vector2d off = said.deviation - estimate.head<2>();
       const auto views = static_cast<double>(map.surfaces[match.map_surface].observations.size() - match.mistaken.size());
       if (off.dot(said.information * off) <= reach * reach * views) walls[m.wall].push_back(said);
     }

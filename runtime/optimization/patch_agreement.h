@@ -18,14 +18,14 @@ struct PatchDisagreement {
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();  // (offset_m, yaw_rad): the solve settles on one of them instead
 };
 
-// By wall; walls whose patches agree (chi-square, 99 %) are left out. `estimates`: (offset_m, yaw_rad) of every wall that has matches.
-// Patches so far from it that the solve's loss has let go of them (a tenth of their weight) are not asked. Other arguments as
-// MeasureWalls(); O(views).
+// By wall; walls whose patches agree (chi-square, 99 %) are left out. `estimates`: (offset_m, yaw_rad, thickness error in m) of every wall
+// that has matches. Patches so far from it that the solve's loss has let go of them (a tenth of their weight) are not asked. Other
+// arguments as MeasureWalls(); O(views).
 [[nodiscard]] std::map<WallId, PatchDisagreement> FindDisagreements(const SGraph& map, const AGraph& plan,
                                                                     const std::vector<WallFrame>& frames, const std::vector<Match>& matches,
                                                                     const std::vector<Eigen::Isometry3d>& T_map_kf,
                                                                     const Eigen::Isometry3d& T_plan_map,
-                                                                    const std::map<WallId, Eigen::Vector2d>& estimates, double bias_m,
+                                                                    const std::map<WallId, Eigen::Vector3d>& estimates, double bias_m,
                                                                     const JointOptions& options);
 
 }  // namespace plumb::runtime

@@ -74,7 +74,7 @@ bool Drive(const Recording& recording, const Trajectory& reference, Mapper& mapp
   mapper.Flush();
   if (const PolishResult polished = PolishMap(mapper.graph()); polished.usable) {
     for (size_t i = 0; i < polished.T_map_kf.size(); ++i) mapper.mutable_graph().keyframes[i].T_map_kf = polished.T_map_kf[i];
-    mapper.OnPosesChanged();
+    mapper.OnPosesChanged(true);
   }
   return !scans.empty() && !mapper.graph().keyframes.empty();
 }

@@ -54,19 +54,22 @@ TEST(ExtractSegments, FindsAWallThatIsFarAway) {
   ASSERT_EQ(segments.size(), 1u);
   EXPECT_EQ(segments[0].kind, SurfaceKind::kWall);
   EXPECT_NEAR(segments[0].plane.SignedDistance({0, 0, 0}), 14.0, 0.01);
-  EXPECT_GT(segments[0].plane.n.x(), -1.001);
   EXPECT_LT(segments[0].plane.n.x(), -0.9995);
 }
 
 // A pane that few rays come back from, and a lintel 12 cm before it that one or two rings reach: planes through rings of both lean.
 TEST(ExtractSegments, LeansNoWallFromAPaneToItsLintel) {
+  int with_a_wall = 0;
   for (int i = 0; i < 20; ++i) {
     const double lowest_m = 0.3 + 0.01 * i;
     const KeyframeWindow window = Sweeps([](double, double z_m) { return z_m > 1.5 ? 5.0 : 5.12; }, 1, lowest_m, 1.9, 0.2, 0.03);
-    for (const Segment& segment : ExtractSegments(window, {})) {
+    const std::vector<Segment> segments = ExtractSegments(window, {});
+    with_a_wall += !segments.empty();
+    for (const Segment& segment : segments) {
       EXPECT_LT(std::abs(segment.plane.n.z()), std::sin(0.2618)) << "rings from " << lowest_m << " m";
     }
   }
+  EXPECT_GT(with_a_wall, 10);
 }
 
 }  // namespace

@@ -39,27 +39,40 @@ struct House {
       o.stats = o.stats.Transformed(T.inverse() * moved * T);
     }
   }
-  [[nodiscard]] std::map<WallId, PatchDisagreement> Disagreements(const Eigen::Vector2d& estimate_of_middle) const {
-    std::map<WallId, Eigen::Vector2d> estimates;
-    for (size_t w = 0; w < plan.walls.size(); ++w) estimates[WallId(w)] = Eigen::Vector2d::Zero();
+  [[nodiscard]] std::map<WallId, PatchDisagreement> Disagreements(const Eigen::Vector3d& estimate_of_middle) const {
+    std::map<WallId, Eigen::Vector3d> estimates;
+    for (size_t w = 0; w < plan.walls.size(); ++w) estimates[WallId(w)] = Eigen::Vector3d::Zero();
     estimates[kMiddle] = estimate_of_middle;
     return FindDisagreements(drive.map, plan, WallFrames(plan), matches, T_map_kf, drive.T_plan_map, estimates, 0, JointOptions());
   }
 };
 
-TEST(FindDisagreements, WallsSeenAsTheyAreAgreeWithThemselves) { EXPECT_TRUE(House().Disagreements(Eigen::Vector2d::Zero()).empty()); }
+TEST(FindDisagreements, WallsSeenAsTheyAreAgreeWithThemselves) { EXPECT_TRUE(House().Disagreements(Eigen::Vector3d::Zero()).empty()); }
 
 TEST(FindDisagreements, AWallThatDeviatesOnAllSidesAgreesWithItself) {
   House house;
+  ASSERT_GE(house.of_middle.size(), 2u);
   for (const uint32_t i : house.of_middle) house.Lean(i, 0, 0.05);
-  EXPECT_TRUE(house.Disagreements(Eigen::Vector2d::Zero()).empty());
+  EXPECT_TRUE(house.Disagreements(Eigen::Vector3d::Zero()).empty());
+}
+
+TEST(FindDisagreements, AThickerWallAgreesWithItself) {
+  constexpr double kThicker_m = 0.08;
+  House house;
+  ASSERT_GE(house.of_middle.size(), 2u);
+  for (const uint32_t i : house.of_middle) {
+    const Surface& face = house.plan.surfaces[house.drive.built[i].index()];
+    house.Lean(i, 0, 0.5 * kThicker_m * face.normal.x());
+  }
+  EXPECT_TRUE(house.Disagreements(Eigen::Vector3d(0, 0, kThicker_m)).empty());
+  EXPECT_FALSE(house.Disagreements(Eigen::Vector3d::Zero()).empty()) << "were it not told how thick the wall is";
 }
 
 TEST(FindDisagreements, APatchThatLeansMakesItsWallUnsure) {
   House house;
   ASSERT_GE(house.of_middle.size(), 2u);
   house.Lean(house.of_middle.front(), 2 * kDeg, 0);
-  const auto found = house.Disagreements(Eigen::Vector2d(0, 2 * kDeg));
+  const auto found = house.Disagreements(Eigen::Vector3d(0, 2 * kDeg, 0));
   ASSERT_EQ(found.size(), 1u);
   ASSERT_EQ(found.begin()->first, kMiddle);
   EXPECT_GT(found.begin()->second.variance_ratio, 4);
@@ -69,8 +82,9 @@ TEST(FindDisagreements, APatchThatLeansMakesItsWallUnsure) {
 
 TEST(FindDisagreements, APatchThatTheSolveHasLetGoOfIsNotAsked) {
   House house;
+  ASSERT_GE(house.of_middle.size(), 2u);
   house.Lean(house.of_middle.front(), 0, 0.4);
-  EXPECT_TRUE(house.Disagreements(Eigen::Vector2d::Zero()).empty());
+  EXPECT_TRUE(house.Disagreements(Eigen::Vector3d::Zero()).empty());
 }
 
 }  // namespace

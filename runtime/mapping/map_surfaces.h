@@ -47,7 +47,7 @@ struct TrackedSurface {
 [[nodiscard]] std::vector<bool> EchoCells(const MapSurface& b, const SurfacePatch& b_patch, const std::vector<MapSurface>& surfaces,
                                           const std::vector<SurfaceTrack>& tracks, const std::vector<Ball>& balls);
 
-// Takes cells from a surface. False if what is left is too small for one.
+// Takes cells from a surface; its points and plane stay as they were. False if what is left is too small for one.
 [[nodiscard]] bool TakeCells(const std::vector<bool>& gone, const MapperOptions& options, MapSurface* surface, SurfaceTrack* track);
 
 // Adds b's observations and cells to a.

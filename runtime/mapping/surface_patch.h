@@ -49,8 +49,8 @@ class SurfacePatch {
   // Coordinates of the first point marked in every cell, in that order; and the points.
   [[nodiscard]] const std::vector<Eigen::Vector2f>& cells() const { return cells_; }
   [[nodiscard]] std::vector<Eigen::Vector3d> CellPoints() const;
-  // From how many keyframes each cell was seen, in that order; and the one that p lies on, within distance_m of the plane: 0 if there is
-  // none.
+  // From how many keyframes each cell was seen, in that order, roughly: where cells of different grids meet, one may count twice. And of
+  // the cell that p lies on, within distance_m of the plane: 0 if there is none.
   [[nodiscard]] const std::vector<uint32_t>& views() const { return views_; }
   [[nodiscard]] uint32_t ViewsAt(const Eigen::Vector3d& p, double distance_m) const;
   [[nodiscard]] double area_m2() const;

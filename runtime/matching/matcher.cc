@@ -53,18 +53,6 @@ class PoseSearch {
     return SortAndMerge(std::move(candidates));
   }
 
-  // The best, and all that might be its rivals if they gained as much as others did. `sorted`: best first.
-  void RefineThatMatter(const MapView& map, std::vector<Candidate>& sorted) const {
-    double best = -1e300, gained = 0;
-    for (size_t i = 0; i < sorted.size(); ++i) {
-      const double before = sorted[i].score();
-      if (i >= kRefinedOnRays && before + gained + options.accept_margin_nats < best) return;
-      RefineOnRays(map, sorted[i]);
-      gained = std::max(gained, sorted[i].score() - before);
-      best = std::max(best, sorted[i].score());
-    }
-  }
-
   // Log-likelihood that the candidate's place gains at most in a plan of another scale.
   [[nodiscard]] double ScaledLikelihood(const MapView& map, const Candidate& candidate) const {
     double best = -1e300;
@@ -102,6 +90,18 @@ class PoseSearch {
 
  private:
   [[nodiscard]] static size_t Stride(const MapView& map, size_t num_rays) { return std::max<size_t>(1, map.rays.size() / num_rays); }
+
+  // The best, and all that might be its rivals if they gained as much as others did. `sorted`: best first.
+  void RefineThatMatter(const MapView& map, std::vector<Candidate>& sorted) const {
+    double best = -1e300, gained = 0;
+    for (size_t i = 0; i < sorted.size(); ++i) {
+      const double before = sorted[i].score();
+      if (i >= kRefinedOnRays && before + gained + options.accept_margin_nats < best) return;
+      RefineOnRays(map, sorted[i]);
+      gained = std::max(gained, sorted[i].score() - before);
+      best = std::max(best, sorted[i].score());
+    }
+  }
 
   void RefineOnRays(const MapView& map, Candidate& candidate) const {
     const PlanarPose pose = runtime::RefineOnRays(plan, map, candidate.fit, options);

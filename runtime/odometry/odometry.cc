@@ -26,8 +26,9 @@ constexpr int kMinFirstPoints = 200;
 constexpr int kMaxFailures = 10;     // in a row, scans without points not counted; then a new map begins at the predicted pose
 constexpr double kLeastShare = 0.4;  // of what the last scan found on the map, the next finds so much; less is another place
 // Of the usual share of inliers among matched points: below the first a scan may be misplaced, below the second it is.
-constexpr double kDoubtfulRatio = 0.9, kLeastRatio = 0.75, kRatioMemory = 0.1;
-constexpr double kSureGap_s = 0.25;  // after longer gaps the robot may have turned any way
+constexpr double kDoubtfulRatio = 0.9, kLeastRatio = 0.75;
+constexpr double kRatioMemory = 0.1;  // weight of the newest scan in that usual share
+constexpr double kSureGap_s = 0.25;   // after longer gaps the robot may have turned any way
 constexpr size_t kSearchPoints = 800;
 constexpr std::array<double, 7> kSearchYaw_rad = {0, 0.2, -0.2, 0.4, -0.4, 0.6, -0.6};
 constexpr double kMaxGivenSpeed_mps = 30.0;  // beyond, the given odometry has jumped

@@ -163,9 +163,12 @@ bool IsEcho(const MapSurface& b, const SurfacePatch& b_patch, const std::vector<
   }
   if (stronger.empty()) return false;
   const std::vector<Eigen::Vector3d> cells = b_patch.CellPoints();
-  const auto covered = std::count_if(cells.begin(), cells.end(), [&](const Eigen::Vector3d& p) {
-    return std::any_of(stronger.begin(), stronger.end(), [&](const SurfacePatch* a) { return a->Covers(p, kEchoDistance_m); });
-  });
+  size_t covered = 0;
+  for (size_t c = 0; c < cells.size(); ++c) {
+    // A wall's plane grazes the next one, of which it has a few cells then: many points elsewhere are no evidence here.
+    covered += std::any_of(stronger.begin(), stronger.end(),
+                           [&](const SurfacePatch* a) { return a->ViewsAbout(cells[c], kEchoDistance_m) >= b_patch.views()[c]; });
+  }
   return static_cast<double>(covered) >= kEchoShare * static_cast<double>(cells.size());
 }
 

@@ -1,5 +1,6 @@
 #include "runtime/mapping/surface_patch.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -66,14 +67,16 @@ std::vector<Eigen::Vector3d> SurfacePatch::CellPoints() const {
   return points;
 }
 
-bool SurfacePatch::Covers(const Eigen::Vector3d& p, double distance_m) const {
-  if (std::abs(plane_.SignedDistance(p)) > distance_m) return false;
+uint32_t SurfacePatch::ViewsAbout(const Eigen::Vector3d& p, double distance_m) const {
+  if (std::abs(plane_.SignedDistance(p)) > distance_m) return 0;
   const Eigen::Vector2d on = Coordinates(p), at = on / kCell_m;
-  if ((on - hi_).maxCoeff() > CoverMargin_m() || (lo_ - on).maxCoeff() > CoverMargin_m()) return false;
+  if ((on - hi_).maxCoeff() > CoverMargin_m() || (lo_ - on).maxCoeff() > CoverMargin_m()) return 0;
+  uint32_t most = 0;
   for (int k = 0; k < 9; ++k) {
-    if (index_.Find(VoxelKey({at.x() + k % 3 - 1, at.y() + k / 3 - 1, 0})) != VoxelIndex::kNone) return true;
+    const uint32_t cell = index_.Find(VoxelKey({at.x() + k % 3 - 1, at.y() + k / 3 - 1, 0}));
+    if (cell != VoxelIndex::kNone) most = std::max(most, views_[cell]);
   }
-  return false;
+  return most;
 }
 
 double SurfacePatch::CoverMargin_m() { return 2 * kCell_m; }

@@ -54,9 +54,9 @@ class SurfacePatch {
   [[nodiscard]] const std::vector<uint32_t>& views() const { return views_; }
   [[nodiscard]] uint32_t ViewsAt(const Eigen::Vector3d& p, double distance_m) const;
   [[nodiscard]] double area_m2() const;
-  // Whether p lies within distance_m of the plane and on or next to a cell.
-  [[nodiscard]] bool Covers(const Eigen::Vector3d& p, double distance_m) const;
-  // How far outside the bounds, in either coordinate, a point may be covered: less than this.
+  // The same of the cells on or next to which p lies: the most, 0 if there are none.
+  [[nodiscard]] uint32_t ViewsAbout(const Eigen::Vector3d& p, double distance_m) const;
+  // How far outside the bounds, in either coordinate, a point may have views about it: less than this.
   [[nodiscard]] static double CoverMargin_m();
 
  private:

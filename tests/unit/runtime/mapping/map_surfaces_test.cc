@@ -145,6 +145,15 @@ TEST(IsEcho, IsNothingThatTheWallLeavesRoomFor) {
   EXPECT_FALSE(IsEchoOf(Patch(0, 5, 0.95, 0, 50, Everywhere), {wall})) << "a panelling seen half as often";
 }
 
+// Two walls that meet at a few degrees: single views of the longer one took cells of the other's.
+TEST(IsEcho, IsNoWallThatTheNextOnesPlaneGrazes) {
+  TrackedSurface wall = Seen(20, Patch(0, 7, 1, 0, 100, Everywhere));
+  Absorb(Patch(7, 9, 1, 0, 1, Everywhere), {Keyframe()}, &wall.surface, &wall.track);
+  const TrackedSurface next = Patch(7, 9, 0.93, 0.07, 5, Everywhere);
+  EXPECT_FALSE(IsEchoOf(Seen(3, next), {wall}));
+  EXPECT_TRUE(IsEchoOf(next, {wall})) << "seen no more often than the wall there";
+}
+
 // A door leaf that a few noisy views made as wide as its wall.
 TEST(EchoCells, AreALeafsOutsideItsDoorway) {
   const auto in_doorway = [](double x_m, double) { return x_m > 2 && x_m < 3; };

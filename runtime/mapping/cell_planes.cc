@@ -106,6 +106,7 @@ double MinCellCount(const std::vector<Cell>& cells) {
 struct Squares {
   std::vector<PlaneStats> stats;
   std::vector<Cell> cells;
+  std::vector<uint32_t> of;  // each cell's
 };
 Squares Joined(const std::vector<Cell>& cells, const PlaneAxes& axes, double sigma_m) {
   Squares squares;
@@ -114,6 +115,7 @@ Squares Joined(const std::vector<Cell>& cells, const PlaneAxes& axes, double sig
     const uint32_t i = index.Insert(VoxelKey({axes.along.dot(cell.mean) / kSquare_m, axes.across.dot(cell.mean) / kSquare_m, 0})).first;
     if (i == squares.stats.size()) squares.stats.emplace_back();
     squares.stats[i].Add(*cell.stats);
+    squares.of.push_back(i);
   }
   for (const PlaneStats& stats : squares.stats) squares.cells.push_back(MakeCell(stats, sigma_m));
   return squares;
@@ -206,13 +208,17 @@ std::vector<Segment> SplitCells(const std::vector<PlaneStats>& cells, SurfaceKin
   for (int i = 0; i < kMaxPlanes && remaining.size() >= min_cells; ++i) {
     const Squares squares = Joined(remaining, axes, sigma_m);
     const Plane plane = BestPlane(squares.cells, normal);
-    std::vector<Cell> on;
-    std::copy_if(remaining.begin(), remaining.end(), std::back_inserter(on), [&](const Cell& cell) { return cell.On(plane); });
+    // A single cell may be too noisy to tell its plane from one a step further.
+    std::vector<Cell> on, off;
+    for (size_t k = 0; k < remaining.size(); ++k) {
+      const bool is_on = remaining[k].On(plane) && squares.cells[squares.of[k]].On(plane);
+      (is_on ? on : off).push_back(remaining[k]);
+    }
     // What is left by a first plane is often just its roughest cells, strewn all over.
     if (i > 0) on = LargestGroup(on, axes);
     if (on.size() < min_cells) break;
     if (std::optional<Segment> segment = SegmentOf(on, kind, normal, axes, min_count, options)) segments.push_back(std::move(*segment));
-    std::erase_if(remaining, [&](const Cell& cell) { return cell.On(plane); });
+    remaining = std::move(off);
   }
   return segments;
 }

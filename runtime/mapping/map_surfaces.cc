@@ -18,6 +18,7 @@ constexpr double kMaxJointOff =
     0.5;  // of the merge distance: how much further from the common plane than from its own a part's points may be, rms
 constexpr double kEchoPoints = 0.2, kEchoFacingCos = 0.94, kEchoDistance_m = 0.15, kEchoShare = 0.6;
 constexpr uint32_t kEchoViews = 5;         // times an echo's
+constexpr uint32_t kOwnViews = 2;          // times the stronger surface's views of a place make it the weaker one's
 constexpr double kEdge_m = 0.5 * kCell_m;  // a cell's mean point lies inside the surface's edge by about this
 
 double MeanSquareDistance(const PlaneStats& sum, const Plane& plane) {
@@ -165,9 +166,10 @@ bool IsEcho(const MapSurface& b, const SurfacePatch& b_patch, const std::vector<
   const std::vector<Eigen::Vector3d> cells = b_patch.CellPoints();
   size_t covered = 0;
   for (size_t c = 0; c < cells.size(); ++c) {
-    // A wall's plane grazes the next one, of which it has a few cells then: many points elsewhere are no evidence here.
-    covered += std::any_of(stronger.begin(), stronger.end(),
-                           [&](const SurfacePatch* a) { return a->ViewsAbout(cells[c], kEchoDistance_m) >= b_patch.views()[c]; });
+    // A wall's plane may graze the next one, of which it has a few cells then: many points elsewhere are no evidence here.
+    covered += std::any_of(stronger.begin(), stronger.end(), [&](const SurfacePatch* a) {
+      return kOwnViews * a->ViewsAbout(cells[c], kEchoDistance_m) >= b_patch.views()[c];
+    });
   }
   return static_cast<double>(covered) >= kEchoShare * static_cast<double>(cells.size());
 }

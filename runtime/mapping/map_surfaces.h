@@ -36,9 +36,9 @@ struct TrackedSurface {
 [[nodiscard]] bool FitOnePlane(const SurfaceTrack& a, const SurfaceTrack& b, const MapperOptions& options);
 
 // Whether b is none: most of its cells lie close in front of or behind where surfaces that face the same way and have many times as many
-// points, one or several of them, have been seen as often as b. Of two opaque surfaces one hides the other, so nothing real can be there;
-// such planes lean from a wall to a door's casing or a window's frame. O(cells of b) for each surface near by, and a few steps for each of
-// `surfaces`, which have `tracks` and `balls` (theirs) in the same order and may contain b.
+// points, one or several of them, have been seen half as often as b or more. Of two opaque surfaces one hides the other, so nothing real
+// can be there; such planes lean from a wall to a door's casing or a window's frame. O(cells of b) for each surface near by, and a few
+// steps for each of `surfaces`, which have `tracks` and `balls` (theirs) in the same order and may contain b.
 [[nodiscard]] bool IsEcho(const MapSurface& b, const SurfacePatch& b_patch, const std::vector<MapSurface>& surfaces,
                           const std::vector<SurfaceTrack>& tracks, const std::vector<Ball>& balls);
 

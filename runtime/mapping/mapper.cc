@@ -240,6 +240,8 @@ void Mapper::Empty(size_t i) {
   const uint32_t id = graph_.surfaces[i].id;
   graph_.surfaces[i] = {};
   graph_.surfaces[i].id = id;
+  SurfacePatch& patch = tracks_[i].patch;
+  patch.Forget(std::vector<bool>(patch.cells().size(), true));
 }
 
 // The older of two surfaces stays; the younger keeps its slot, empty. `settled` as in OnPosesChanged().
@@ -254,7 +256,7 @@ void Mapper::MergeDuplicates(bool settled) {
       if (std::isinf(SurfaceDistance(tracks_[i].patch, tracks_[k].patch, options_, directed)) ||
           !FitOnePlane(tracks_[i], tracks_[k], options_))
         continue;
-      AbsorbInto(i, {surfaces[k], tracks_[k]});
+      AbsorbInto(i, {std::move(surfaces[k]), std::move(tracks_[k])});
       Empty(k);
       k = i;  // the grown surface may reach others
     }

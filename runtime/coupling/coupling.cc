@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <optional>
 #include <set>
@@ -21,15 +22,17 @@
 namespace plumb::runtime {
 namespace {
 
-constexpr double kMinSizeShare = 0.5;      // a line behind another is the wall if it has this share of the front's area, ...
-constexpr double kHigher_m = 0.10;         // ... or is seen this much higher up
-constexpr double kFrontPenalty_nats = 8;   // for taking a surface with a wall visible behind it for the wall
-constexpr double kInOpeningRatio = 0.6;    // of an observation's extent either way: it is of what fills the opening
-constexpr double kHalfExtentSigmas = 1.7;  // half the extent of evenly spread points
+constexpr double kMinSizeShare = 0.5;           // a line behind another is the wall if it has this share of the front's area, ...
+constexpr double kHigher_m = 0.10;              // ... or is seen this much higher up
+constexpr double kFrontPenalty_nats = 8;        // for taking a surface with a wall visible behind it for the wall
+constexpr double kSeenThroughPenalty_nats = 8;  // for taking a surface for the wall past which other lines of sight go on
+constexpr double kLeastBeside = 0.1;            // keeps what it divides finite
+constexpr double kInOpeningRatio = 0.6;         // of an observation's extent either way: it is of what fills the opening
+constexpr double kHalfExtentSigmas = 1.7;       // half the extent of evenly spread points
 // Of walls that one patch runs along.
 constexpr double kSameNormal_cos = 0.999, kMinShared_m2 = 0.5, kMaxFlush_m = 0.2, kMinSharedRatio = 0.5;
 constexpr double kSameDirection_rad = 0.052, kDirectionSigmas = 2;  // patches of one line are parallel to this
-constexpr double kStepPerMetre = 0.01;     // lines are compared at a distance: allow for their direction errors
+constexpr double kStepPerMetre = 0.01;                              // lines are compared at a distance: allow for their direction errors
 
 // What one view saw of a face, in the face's coordinates: along it from its start, and up.
 struct ViewExtent {
@@ -91,8 +94,10 @@ double Step(const Patch& a, const Patch& b, double max_step_m) {
 
 class Assignment {
  public:
-  Assignment(const std::vector<Patch>& patches, std::vector<std::vector<FaceCandidate>> candidates, const CouplingOptions& options)
-      : patches_(patches), candidates_(std::move(candidates)), options_(options) {
+  // `is_seen_through`: would a wall in the patch's plane, of the planned surface's extent, stand in the way of what was seen?
+  Assignment(const std::vector<Patch>& patches, std::vector<std::vector<FaceCandidate>> candidates,
+             std::function<bool(const Patch&, SurfaceId)> is_seen_through, const CouplingOptions& options)
+      : patches_(patches), candidates_(std::move(candidates)), is_seen_through_(std::move(is_seen_through)), options_(options) {
     for (auto& list : candidates_) {
       std::erase_if(list, [&](const FaceCandidate& c) { return c.cost_nats > options_.unmatched_cost_nats; });
       std::stable_sort(list.begin(), list.end(), [](const FaceCandidate& a, const FaceCandidate& b) { return a.cost_nats < b.cost_nats; });
@@ -121,7 +126,8 @@ class Assignment {
       if (lines.size() < 2) continue;
       const size_t wall = ChooseWall(lines, by_side[from].first);
       for (size_t k = 0; k < lines.size(); ++k) {
-        if (k != wall) for (size_t i : lines[k].patches) DropSide(i, by_side[from].first);
+        if (k != wall)
+          for (size_t i : lines[k].patches) DropSide(i, by_side[from].first);
       }
       return true;
     }
@@ -179,6 +185,9 @@ class Assignment {
         hides |= elsewhere >= options_.unmatched_cost_nats && Hides(lines[k], lines[j]);
       }
       if (hides) cost += kFrontPenalty_nats;
+      // Of a wall that is turned, part of a line where it was planned is in front: what is seen beyond the other part tells.
+      const size_t first = lines[k].patches.front();
+      if (is_seen_through_(patches_[first], candidates_[first].front().surface)) cost += kSeenThroughPenalty_nats;
       if (cost < best_cost - 1e-9) {
         best_cost = cost;
         best = k;
@@ -189,20 +198,24 @@ class Assignment {
 
   const std::vector<Patch>& patches_;
   std::vector<std::vector<FaceCandidate>> candidates_;
+  const std::function<bool(const Patch&, SurfaceId)> is_seen_through_;
   const CouplingOptions& options_;
 };
 
-AssignedFaces Assigned(const std::vector<PlannedFace>& faces, const std::vector<Patch>& patches,
-                                                 const SightLines& sight, const std::vector<WallDeviation>& known, double max_offset_m,
-                                                 const CouplingOptions& options) {
+AssignedFaces Assigned(const AGraph& plan, const std::vector<PlannedFace>& faces, const std::vector<Patch>& patches,
+                       const std::vector<std::vector<WallOpening>>& openings, const SightLines& sight,
+                       const std::vector<WallDeviation>& known, double max_offset_m, const CouplingOptions& options) {
   std::vector<std::vector<FaceCandidate>> candidates;
   for (const Patch& patch : patches) candidates.push_back(CandidatesOf(patch, faces, sight, known, max_offset_m, options));
-  return Assignment(patches, std::move(candidates), options).Solve();
+  const auto is_seen_through = [&](const Patch& patch, SurfaceId id) {
+    const Surface& surface = plan.surfaces[id.index()];
+    return IsSeenThrough(patch, surface, openings[surface.wall.index()], sight);
+  };
+  return Assignment(patches, std::move(candidates), is_seen_through, options).Solve();
 }
 
 std::vector<FarWall> FarWalls(const AGraph& plan, const std::vector<WallFrame>& frames, const std::vector<Patch>& patches,
-                              const AssignedFaces& assigned,
-                              const std::vector<std::vector<WallOpening>>& openings, const SightLines& sight,
+                              const AssignedFaces& assigned, const std::vector<std::vector<WallOpening>>& openings, const SightLines& sight,
                               const CouplingOptions& options) {
   std::vector<Patch> unmatched;
   std::vector<bool> matched(plan.walls.size(), false);
@@ -241,9 +254,32 @@ std::vector<FaceCandidate> FacesAlong(const AGraph& plan, const Patch& patch, co
   return faces;
 }
 
+// Match::beside_ratio of the patch on the surface.
+double BesideRatio(const std::vector<PlannedFace>& faces, const Patch& patch, const Surface& surface) {
+  const Eigen::Vector2d along = (surface.end - surface.start).normalized(), n = surface.normal.head<2>();
+  const auto [from, to] = std::minmax({along.dot(patch.start), along.dot(patch.end)});
+  std::vector<std::pair<double, double>> beside;
+  for (const PlannedFace& f : faces) {
+    const Surface& s = *f.surface;
+    if (s.normal.dot(surface.normal) < kSameNormal_cos || std::abs(n.dot(s.start - surface.start)) > kMapSigma_m ||
+        s.z_max_m < patch.z_min || s.z_min_m > patch.z_max)
+      continue;
+    const auto [low, high] = std::minmax({along.dot(s.start), along.dot(s.end)});
+    if (std::min(high, to) > std::max(low, from)) beside.emplace_back(std::max(low, from), std::min(high, to));
+  }
+  std::sort(beside.begin(), beside.end());
+  double sum_m = 0, reached = from;
+  for (const auto& [low, high] : beside) {
+    sum_m += std::max(0.0, high - std::max(low, reached));
+    reached = std::max(reached, high);
+  }
+  return std::max(kLeastBeside, sum_m / (to - from));
+}
+
 // One match per face; each view counts for the face of which it saw most.
 void AddMatches(const SGraph& map, const AGraph& plan, const Patch& patch, const std::vector<FaceCandidate>& faces,
-                const std::vector<std::vector<WallOpening>>& openings, const Eigen::Isometry3d& T_plan_map, std::vector<Match>& matches) {
+                const std::vector<PlannedFace>& planned, const std::vector<std::vector<WallOpening>>& openings,
+                const Eigen::Isometry3d& T_plan_map, std::vector<Match>& matches) {
   const MapSurface& seen = map.surfaces[patch.map_surface];
   std::vector<std::vector<ViewExtent>> views;
   for (const FaceCandidate& c : faces) views.push_back(ExtentsOnFace(map, seen, plan.surfaces[c.surface.index()], T_plan_map));
@@ -263,19 +299,25 @@ void AddMatches(const SGraph& map, const AGraph& plan, const Patch& patch, const
       if (face_of(i) != k || IsInOpening(views[k][i], surface, openings[surface.wall.index()])) mistaken.push_back(i);
     }
     if (mistaken.size() == seen.observations.size()) continue;
-    matches.push_back({patch.map_surface, faces[k].surface, RoomId(), faces[k].offset_m, faces[k].yaw_rad, std::move(mistaken)});
+    const double beside = map.planar ? 1.0 : BesideRatio(planned, patch, surface);
+    matches.push_back({patch.map_surface, faces[k].surface, RoomId(), faces[k].offset_m, faces[k].yaw_rad, std::move(mistaken), beside});
   }
 }
 
 }  // namespace
 
 std::string CouplingOptions::Check() const {
-  const std::pair<const char*, double> positive[] = {{"max_offset_m", max_offset_m},   {"planar_max_offset_m", planar_max_offset_m},
-                                                     {"max_yaw_rad", max_yaw_rad},     {"far_offset_m", far_offset_m},
-                                                     {"far_yaw_rad", far_yaw_rad},     {"max_level_offset_m", max_level_offset_m},
+  const std::pair<const char*, double> positive[] = {{"max_offset_m", max_offset_m},
+                                                     {"planar_max_offset_m", planar_max_offset_m},
+                                                     {"max_yaw_rad", max_yaw_rad},
+                                                     {"far_offset_m", far_offset_m},
+                                                     {"far_yaw_rad", far_yaw_rad},
+                                                     {"max_level_offset_m", max_level_offset_m},
                                                      {"max_unknown_height_m", max_unknown_height_m},
-                                                     {"max_step_m", max_step_m},       {"offset_tau0_m", offset_tau0_m},
-                                                     {"offset_tau1_m", offset_tau1_m}, {"yaw_tau0_rad", yaw_tau0_rad},
+                                                     {"max_step_m", max_step_m},
+                                                     {"offset_tau0_m", offset_tau0_m},
+                                                     {"offset_tau1_m", offset_tau1_m},
+                                                     {"yaw_tau0_rad", yaw_tau0_rad},
                                                      {"yaw_tau1_rad", yaw_tau1_rad}};
   for (const auto& [name, value] : positive) {
     if (!(value > 0)) return fmt::format("CouplingOptions.{} = {}; must be > 0", name, value);
@@ -300,14 +342,14 @@ std::vector<Match> MatchSurfaces(const SGraph& map, const AGraph& plan, const Ei
   const SightLines sight(map, T_plan_map);
   const std::vector<PlannedFace> faces = PlannedFaces(plan, frames, openings);
   const double max_offset_m = map.planar ? options.planar_max_offset_m : options.max_offset_m;
-  AssignedFaces assigned = Assigned(faces, patches, sight, known, max_offset_m, options);
+  AssignedFaces assigned = Assigned(plan, faces, patches, openings, sight, known, max_offset_m, options);
   if (map.planar) {
     DropPlanarFronts(patches, assigned);
   } else if (const std::vector<FarWall> far = FarWalls(plan, frames, patches, assigned, openings, sight, options); !far.empty()) {
     std::vector<WallDeviation> supposed = known;
     supposed.resize(plan.walls.size());
     for (const FarWall& w : far) supposed[w.wall.index()] = w.deviation;
-    assigned = Assigned(faces, patches, sight, supposed, max_offset_m, options);
+    assigned = Assigned(plan, faces, patches, openings, sight, supposed, max_offset_m, options);
   }
 
   std::vector<Match> matches = MatchLevels(map, plan, T_plan_map, options);
@@ -319,7 +361,7 @@ std::vector<Match> MatchSurfaces(const SGraph& map, const AGraph& plan, const Ei
     if (assigned[i].empty()) continue;
     const std::vector<FaceCandidate> along =
         map.planar ? std::vector{assigned[i].front()} : FacesAlong(plan, patches[i], assigned[i], sides);
-    AddMatches(map, plan, patches[i], along, openings, T_plan_map, matches);
+    AddMatches(map, plan, patches[i], along, faces, openings, T_plan_map, matches);
   }
   if (!map.planar) DropLowFronts(plan, frames, patches, matches);
   std::sort(matches.begin(), matches.end(), [](const Match& a, const Match& b) {

@@ -20,26 +20,38 @@ double ShareThatCounts(const SGraph& map, const Match& m) {
   return all > 0 ? counts / all : 0;
 }
 
-// Rooms divide one side of a wall into several faces: how much of a match's patch lies on each. The shares add up to one.
+// Rooms divide one side of a wall into several faces: how much of a match's patch lies on each. What goes on beyond the wall is no part of
+// it, so the shares add up to one at most.
 std::vector<std::pair<SurfaceId, double>> SharesOfFaces(const SGraph& map, const AGraph& plan, const Match& m,
                                                         const Eigen::Isometry3d& T_plan_map) {
   const Surface& matched = plan.surfaces[m.plan_surface.index()];
+  if (matched.arc) return {{m.plan_surface, 1.0}};
   const MapSurface& patch = map.surfaces[m.map_surface];
   const Eigen::Vector2d along = (matched.end - matched.start).normalized();
   const auto u = [&](const Eigen::Vector2d& at) { return along.dot((T_plan_map * Eigen::Vector3d(at.x(), at.y(), 0)).head<2>()); };
-  const auto [from, to] = std::minmax({u(patch.start), u(patch.end)});
+  const double start = u(patch.start), end = u(patch.end), length_m = patch.length_m();
+  const auto share_between = [&](double from, double to) {
+    if (patch.cells.empty()) {
+      const auto [low, high] = std::minmax({start, end});
+      return high > low ? std::max(0.0, std::min(to, high) - std::max(from, low)) / (high - low) : 0.0;
+    }
+    const auto on_face = std::count_if(patch.cells.begin(), patch.cells.end(), [&](const Eigen::Vector2f& cell) {
+      const double at = start + cell.x() / length_m * (end - start);
+      return at >= from && at <= to;
+    });
+    return static_cast<double>(on_face) / static_cast<double>(patch.cells.size());
+  };
   std::vector<std::pair<SurfaceId, double>> shares;
-  double total_m = 0;
-  for (size_t i = 0; i < plan.surfaces.size() && !matched.arc; ++i) {
+  double sum = 0;
+  for (size_t i = 0; i < plan.surfaces.size(); ++i) {
     const Surface& face = plan.surfaces[i];
     if (face.wall != matched.wall || face.storey != matched.storey || face.arc || face.normal.dot(matched.normal) < kSameSide) continue;
-    const double common_m = std::min(to, along.dot(face.end)) - std::max(from, along.dot(face.start));
-    if (common_m <= 0) continue;
-    shares.emplace_back(SurfaceId(i), common_m);
-    total_m += common_m;
+    const auto [from, to] = std::minmax({along.dot(face.start), along.dot(face.end)});
+    const double share = share_between(from, to);
+    if (share > 0) shares.emplace_back(SurfaceId(i), share);
+    sum += share;
   }
-  if (shares.empty()) return {{m.plan_surface, 1.0}};
-  for (auto& [face, share] : shares) share /= total_m;
+  for (auto& [face, share] : shares) share /= std::max(1.0, sum);  // faces of two rooms may lie one above the other
   return shares;
 }
 

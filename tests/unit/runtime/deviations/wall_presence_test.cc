@@ -4,6 +4,7 @@
 
 #include <numbers>
 
+#include "runtime/coupling/wall_frame.h"
 #include "runtime/deviations/deviations.h"
 #include "tests/unit/runtime/deviations/built_house.h"
 
@@ -105,6 +106,28 @@ TEST(JudgePresence, AWallThatIsHalfBuiltIsNotMissing) {
   AGraph built = plan;
   test::TakeOut(built, "wall-middle", [](const Eigen::Vector3d& p) { return p.y() > 2.3; });
   EXPECT_TRUE(MissingWalls(plan, built).empty());
+}
+
+// Where the next wall was built through its place, what is left of a short one may be too close to that for the cells.
+TEST(JudgePresence, AWallOfWhichAPartWasSeenInItsPlaceIsNotMissing) {
+  const AGraph plan = test::MakeHouse();
+  AGraph built = plan;
+  test::TakeOut(built, "wall-middle");
+  test::Survey s = test::DriveThrough(plan, built);
+  const WallId middle(test::WallOf(plan, "wall-middle"));
+  WallEstimate part;
+  part.wall = middle;
+  part.reference = WallFrames(plan)[middle.index()].reference;
+  part.observed_m2 = 0.3;
+  part.span_m = 0.4 * plan.surfaces[part.reference.index()].length_m();
+  std::erase_if(s.estimate.walls, [&](const WallEstimate& w) { return w.wall == middle; });
+  s.estimate.walls.push_back(part);
+  EXPECT_FALSE(JudgePresence(s.map, plan, s.estimate)[middle.index()].missing);
+  s.estimate.walls.back().deviation.offset_m = 0.2;  // a thing that stands elsewhere
+  EXPECT_TRUE(JudgePresence(s.map, plan, s.estimate)[middle.index()].missing);
+  s.estimate.walls.back().deviation.offset_m = 0;
+  s.estimate.walls.back().span_m = 0.2;
+  EXPECT_TRUE(JudgePresence(s.map, plan, s.estimate)[middle.index()].missing);
 }
 
 TEST(JudgePresence, APlanarLaserJudgesNoWall) {

@@ -207,6 +207,47 @@ TEST(OptimizeJointly, TheSpanOfAWallEndsWithItsFace) {
   EXPECT_NEAR(longer.walls[kEast].span_m, length_m, 0.05);
 }
 
+// Each patch has a square metre and two beyond either end as well.
+TEST(OptimizeJointly, WhatGoesOnBeyondAWallIsNotCountedAsSeenOfIt) {
+  const AGraph house = test::MakeHouse();
+  Solved s = Solve(house, {});
+  const WallEstimate before = s.result.walls[kEast];
+  for (MapSurface& patch : s.drive.map.surfaces) {
+    if (patch.kind != SurfaceKind::kWall) continue;
+    const Eigen::Vector2d on = 2 * (patch.end - patch.start).normalized();
+    const auto length_m = static_cast<float>(patch.length_m());
+    patch.start -= on;
+    patch.end += on;
+    for (Eigen::Vector2f& cell : patch.cells) cell.x() += 2;
+    const size_t num = patch.cells.size();
+    for (float z = 0.05f; z < 2; z += 0.1f) {
+      for (float x = 0.05f; x < 1; x += 0.1f) {
+        patch.cells.emplace_back(x, z);
+        patch.cells.emplace_back(length_m + 3 + x, z);
+      }
+    }
+    const double more = static_cast<double>(patch.cells.size()) / static_cast<double>(num);
+    patch.area_m2 *= more;
+    patch.num_points *= more;
+  }
+  const WallEstimate after = OptimizeJointly(s.drive.map, house, s.matches, s.result.T_plan_map).walls[kEast];
+  EXPECT_NEAR(after.observed_m2, before.observed_m2, 0.05 * before.observed_m2);
+  EXPECT_NEAR(after.num_points, before.num_points, 0.05 * before.num_points);
+}
+
+TEST(OptimizeJointly, APatchThatGoesOnBeyondItsFaceTellsLessOfItsTurn) {
+  const AGraph house = test::MakeHouse();
+  Solved s = Solve(house, {});
+  const double all = s.result.walls[kEast].evidence.covariance(1, 1);
+  for (Match& m : s.matches) {
+    if (m.plan_surface.valid() && house.surfaces[m.plan_surface.index()].wall == WallId(kEast)) m.beside_ratio = 0.2;
+  }
+  const JointResult partly = OptimizeJointly(s.drive.map, house, s.matches, s.result.T_plan_map);
+  EXPECT_GT(partly.walls[kEast].evidence.covariance(1, 1), 4 * all);
+  EXPECT_NEAR(partly.walls[kNorth].evidence.covariance(1, 1), s.result.walls[kNorth].evidence.covariance(1, 1),
+              0.3 * s.result.walls[kNorth].evidence.covariance(1, 1));
+}
+
 TEST(OptimizeJointly, TwoSigmaCovers) {
   const AGraph house = test::MakeHouse();
   int inside = 0, total = 0;

@@ -20,39 +20,66 @@ double ShareThatCounts(const SGraph& map, const Match& m) {
   return all > 0 ? counts / all : 0;
 }
 
-// Rooms divide one side of a wall into several faces: how much of a match's patch lies on each. What goes on beyond the wall is no part of
-// it, so the shares add up to one at most.
-std::vector<std::pair<SurfaceId, double>> SharesOfFaces(const SGraph& map, const AGraph& plan, const Match& m,
-                                                        const Eigen::Isometry3d& T_plan_map) {
-  const Surface& matched = plan.surfaces[m.plan_surface.index()];
-  if (matched.arc) return {{m.plan_surface, 1.0}};
-  const MapSurface& patch = map.surfaces[m.map_surface];
-  const Eigen::Vector2d along = (matched.end - matched.start).normalized();
-  const auto u = [&](const Eigen::Vector2d& at) { return along.dot((T_plan_map * Eigen::Vector3d(at.x(), at.y(), 0)).head<2>()); };
-  const double start = u(patch.start), end = u(patch.end), length_m = patch.length_m();
-  const auto share_between = [&](double from, double to) {
-    if (patch.cells.empty()) {
-      const auto [low, high] = std::minmax({start, end});
-      return high > low ? std::max(0.0, std::min(to, high) - std::max(from, low)) / (high - low) : 0.0;
-    }
-    const auto on_face = std::count_if(patch.cells.begin(), patch.cells.end(), [&](const Eigen::Vector2f& cell) {
-      const double at = start + cell.x() / length_m * (end - start);
-      return at >= from && at <= to;
-    });
-    return static_cast<double>(on_face) / static_cast<double>(patch.cells.size());
-  };
-  std::vector<std::pair<SurfaceId, double>> shares;
-  double sum = 0;
+// By how much the wall is off at a place.
+double Off_m(const WallEstimate& wall, const WallFrame& frame, const Eigen::Vector2d& at) {
+  const Eigen::Vector2d arm = at - frame.pivot.head<2>();
+  return std::abs(wall.deviation.offset_m + wall.deviation.yaw_rad * frame.normal.head<2>().dot(Eigen::Vector2d(-arm.y(), arm.x())));
+}
+
+// A face of one side of a wall: from where to where it is planned along the wall, and may have been built: a wall that is off meets the
+// next one as much earlier or later.
+struct FaceRange {
+  SurfaceId face;
+  double from, to, may_from, may_to;
+  double share = 0;
+};
+
+std::vector<FaceRange> FacesOfSide(const AGraph& plan, const Surface& matched, const Eigen::Vector2d& along, const WallEstimate& wall,
+                                   const WallFrame& frame) {
+  std::vector<FaceRange> out;
   for (size_t i = 0; i < plan.surfaces.size(); ++i) {
     const Surface& face = plan.surfaces[i];
     if (face.wall != matched.wall || face.storey != matched.storey || face.arc || face.normal.dot(matched.normal) < kSameSide) continue;
-    const auto [from, to] = std::minmax({along.dot(face.start), along.dot(face.end)});
-    const double share = share_between(from, to);
-    if (share > 0) shares.emplace_back(SurfaceId(i), share);
-    sum += share;
+    const bool forth = along.dot(face.end - face.start) > 0;
+    const Eigen::Vector2d &low = forth ? face.start : face.end, &high = forth ? face.end : face.start;
+    const double from = along.dot(low), to = along.dot(high);
+    out.push_back({SurfaceId(i), from, to, from - Off_m(wall, frame, low), to + Off_m(wall, frame, high)});
   }
-  for (auto& [face, share] : shares) share /= std::max(1.0, sum);  // faces of two rooms may lie one above the other
-  return shares;
+  return out;
+}
+
+// Where along the wall the patch was seen, evenly.
+std::vector<double> SeenAt(const MapSurface& patch, const Eigen::Vector2d& along, const Eigen::Isometry3d& T_plan_map) {
+  const auto u = [&](const Eigen::Vector2d& at) { return along.dot((T_plan_map * Eigen::Vector3d(at.x(), at.y(), 0)).head<2>()); };
+  const double start = u(patch.start), end = u(patch.end), length_m = patch.length_m();
+  std::vector<double> out;
+  for (const Eigen::Vector2f& cell : patch.cells) out.push_back(start + cell.x() / length_m * (end - start));
+  constexpr int kParts = 100;
+  for (int i = 0; i < kParts && patch.cells.empty(); ++i) out.push_back(start + (i + 0.5) / kParts * (end - start));
+  return out;
+}
+
+// Rooms divide one side of a wall into several faces: how much of a match's patch lies on each. What goes on beyond the wall is no part of
+// it, so the shares add up to one at most.
+std::vector<FaceRange> SharesOfFaces(const SGraph& map, const AGraph& plan, const Match& m, const WallEstimate& wall,
+                                     const WallFrame& frame, const Eigen::Isometry3d& T_plan_map) {
+  const Surface& matched = plan.surfaces[m.plan_surface.index()];
+  if (matched.arc) return {{m.plan_surface, 0, 0, 0, 0, 1.0}};
+  const Eigen::Vector2d along = (matched.end - matched.start).normalized();
+  std::vector<FaceRange> faces = FacesOfSide(plan, matched, along, wall, frame);
+  const std::vector<double> seen_at = SeenAt(map.surfaces[m.map_surface], along, T_plan_map);
+  double of_wall = 0, on_faces = 0;
+  for (const double at : seen_at) {
+    of_wall += std::any_of(faces.begin(), faces.end(), [&](const FaceRange& f) { return at >= f.may_from && at <= f.may_to; }) ? 1 : 0;
+    for (FaceRange& f : faces) {
+      if (at < f.from || at > f.to) continue;
+      ++f.share;
+      ++on_faces;
+    }
+  }
+  for (FaceRange& f : faces) f.share *= on_faces > 0 ? of_wall / (on_faces * static_cast<double>(seen_at.size())) : 0;
+  std::erase_if(faces, [](const FaceRange& f) { return f.share <= 0; });
+  return faces;
 }
 
 // From where to where along its wall the match's patch reaches, within the face: it may go on along the next wall.
@@ -74,6 +101,11 @@ void AddSpan(const SGraph& map, const AGraph& plan, const std::vector<WallFrame>
   }
 }
 
+// `walls` by id; it is one of them.
+WallEstimate& EstimateOf(WallId wall, std::vector<WallEstimate>& walls) {
+  return *std::lower_bound(walls.begin(), walls.end(), wall, [](const WallEstimate& a, WallId b) { return a.wall < b; });
+}
+
 }  // namespace
 
 void CountSeen(const SGraph& map, const AGraph& plan, const std::vector<WallFrame>& frames, const std::vector<Match>& matches,
@@ -83,17 +115,18 @@ void CountSeen(const SGraph& map, const AGraph& plan, const std::vector<WallFram
   for (const Match& m : matches) {
     if (!m.plan_surface.valid()) continue;
     const double counts = m.mistaken.empty() ? 1.0 : ShareThatCounts(map, m);
-    for (const auto& [face, share] : SharesOfFaces(map, plan, m, T_plan_map)) {
-      SeenSurface& s = seen[face];
-      s.surface = face;
-      s.num_points += counts * share * map.surfaces[m.map_surface].num_points;
-      s.observed_m2 += counts * share * map.surfaces[m.map_surface].area_m2;
+    const WallEstimate& wall = EstimateOf(plan.surfaces[m.plan_surface.index()].wall, walls);
+    for (const FaceRange& f : SharesOfFaces(map, plan, m, wall, frames[wall.wall.index()], T_plan_map)) {
+      SeenSurface& s = seen[f.face];
+      s.surface = f.face;
+      s.num_points += counts * f.share * map.surfaces[m.map_surface].num_points;
+      s.observed_m2 += counts * f.share * map.surfaces[m.map_surface].area_m2;
     }
     AddSpan(map, plan, frames, m, T_plan_map, spans);
   }
   for (const auto& [id, s] : seen) {
     const WallId wall = plan.surfaces[id.index()].wall;
-    WallEstimate& e = *std::lower_bound(walls.begin(), walls.end(), wall, [](const WallEstimate& a, WallId b) { return a.wall < b; });
+    WallEstimate& e = EstimateOf(wall, walls);
     e.seen.push_back(s);
     e.num_points += s.num_points;
     e.observed_m2 += s.observed_m2;

@@ -234,6 +234,26 @@ TEST(MatchSurfaces, FindsAWallFarTurnedAboutAnyPlaceInIt) {
   }
 }
 
+// Each of the faces that rooms divide its side into was met by too few lines to tell alone.
+TEST(MatchSurfaces, FindsAWallFarOffByWhatIsSeenOfAllItsFaces) {
+  const AGraph whole = test::MakeHouse();
+  AGraph parted = whole;
+  parted.surfaces[9].end = whole.surfaces[9].midpoint();
+  parted.surfaces.push_back(whole.surfaces[9]);
+  parted.surfaces.back().start = whole.surfaces[9].midpoint();
+  Scene scene;
+  const Eigen::Vector2d start(9.58, 1.2), end(9.58, 4.8);
+  const uint32_t patch = scene.Add(start, end, 0.1, 2.5);
+  scene.map.surfaces[patch].observations.push_back(scene.map.surfaces[patch].observations.front());
+  scene.See({6, 3, 0.6}, start, end, 0.5, 0.7);
+  const auto wall_of = [&](const AGraph& plan) {
+    const SurfaceId found = scene.Of(plan, patch);
+    return found.valid() ? plan.surfaces[found.index()].wall : WallId();
+  };
+  EXPECT_EQ(wall_of(whole), whole.surfaces[9].wall);
+  EXPECT_EQ(wall_of(parted), whole.surfaces[9].wall);
+}
+
 TEST(MatchSurfaces, FindsNoWallFarOffWhereTwoStandForIt) {
   const AGraph house = test::MakeHouse();
   Scene scene;

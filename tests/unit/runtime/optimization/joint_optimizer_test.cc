@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "runtime/optimization/seen_walls.h"
 #include "tests/support/house.h"
 #include "tests/support/synthetic_sgraph.h"
 
@@ -233,6 +234,25 @@ TEST(OptimizeJointly, WhatGoesOnBeyondAWallIsNotCountedAsSeenOfIt) {
   const WallEstimate after = OptimizeJointly(s.drive.map, house, s.matches, s.result.T_plan_map).walls[kEast];
   EXPECT_NEAR(after.observed_m2, before.observed_m2, 0.05 * before.observed_m2);
   EXPECT_NEAR(after.num_points, before.num_points, 0.05 * before.num_points);
+}
+
+// It meets the next wall as much later.
+TEST(OptimizeJointly, AWallThatIsOffMayBeAsMuchLonger) {
+  const AGraph house = test::MakeHouse();
+  const Solved s = Solve(house, {});
+  AGraph shorter = house;
+  Surface& face = shorter.surfaces[9];
+  face.end += 1.5 * (face.start - face.end).normalized();
+  const auto seen_m2 = [&](double offset_m) {
+    std::vector<WallEstimate> walls = s.result.walls;
+    for (WallEstimate& wall : walls) wall.observed_m2 = 0;
+    walls[kEast].deviation = {offset_m, 0};
+    CountSeen(s.drive.map, shorter, WallFrames(shorter), s.matches, s.result.T_plan_map, walls);
+    return walls[kEast].observed_m2;
+  };
+  EXPECT_LT(seen_m2(0), 0.85 * s.result.walls[kEast].observed_m2);
+  EXPECT_LT(seen_m2(0), seen_m2(0.5));
+  EXPECT_NEAR(seen_m2(-1.6), s.result.walls[kEast].observed_m2, 0.01);
 }
 
 TEST(OptimizeJointly, APatchThatGoesOnBeyondItsFaceTellsLessOfItsTurn) {

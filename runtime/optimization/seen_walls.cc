@@ -7,7 +7,8 @@
 namespace plumb::runtime {
 namespace {
 
-constexpr double kSameSide = 0.9;  // cosine between normals of faces of one side of a wall
+constexpr double kMinHeightOverlap = 0.5;  // of the lower of a patch and a face
+constexpr double kSameSide = 0.9;          // cosine between normals of faces of one side of a wall
 
 // Of the points of a match's patch, those that say something of its wall.
 double ShareThatCounts(const SGraph& map, const Match& m) {
@@ -34,12 +35,19 @@ struct FaceRange {
   double share = 0;
 };
 
-std::vector<FaceRange> FacesOfSide(const AGraph& plan, const Surface& matched, const Eigen::Vector2d& along, const WallEstimate& wall,
+// At the height of the patch, whatever the storey: storeys may be half a floor apart.
+std::vector<FaceRange> FacesOfSide(const AGraph& plan, const Match& m, const MapSurface& patch, double z_shift_m, const WallEstimate& wall,
                                    const WallFrame& frame) {
+  const Surface& matched = plan.surfaces[m.plan_surface.index()];
+  const Eigen::Vector2d along = (matched.end - matched.start).normalized();
+  const double z_min_m = patch.z_min_m + z_shift_m, z_max_m = patch.z_max_m + z_shift_m;
   std::vector<FaceRange> out;
   for (size_t i = 0; i < plan.surfaces.size(); ++i) {
     const Surface& face = plan.surfaces[i];
-    if (face.wall != matched.wall || face.storey != matched.storey || face.arc || face.normal.dot(matched.normal) < kSameSide) continue;
+    if (face.wall != matched.wall || face.arc || face.normal.dot(matched.normal) < kSameSide) continue;
+    const double common_m = std::min(face.z_max_m, z_max_m) - std::max(face.z_min_m, z_min_m);
+    const double shorter_m = std::min(face.z_max_m - face.z_min_m, z_max_m - z_min_m);
+    if (&face != &matched && common_m < kMinHeightOverlap * shorter_m) continue;
     const bool forth = along.dot(face.end - face.start) > 0;
     const Eigen::Vector2d &low = forth ? face.start : face.end, &high = forth ? face.end : face.start;
     const double from = along.dot(low), to = along.dot(high);
@@ -66,8 +74,9 @@ std::vector<FaceRange> SharesOfFaces(const SGraph& map, const AGraph& plan, cons
   const Surface& matched = plan.surfaces[m.plan_surface.index()];
   if (matched.arc) return {{m.plan_surface, 0, 0, 0, 0, 1.0}};
   const Eigen::Vector2d along = (matched.end - matched.start).normalized();
-  std::vector<FaceRange> faces = FacesOfSide(plan, matched, along, wall, frame);
-  const std::vector<double> seen_at = SeenAt(map.surfaces[m.map_surface], along, T_plan_map);
+  const MapSurface& patch = map.surfaces[m.map_surface];
+  std::vector<FaceRange> faces = FacesOfSide(plan, m, patch, T_plan_map.translation().z(), wall, frame);
+  const std::vector<double> seen_at = SeenAt(patch, along, T_plan_map);
   double of_wall = 0, on_faces = 0;
   for (const double at : seen_at) {
     of_wall += std::any_of(faces.begin(), faces.end(), [&](const FaceRange& f) { return at >= f.may_from && at <= f.may_to; }) ? 1 : 0;

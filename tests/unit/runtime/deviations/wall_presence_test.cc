@@ -23,6 +23,10 @@ std::vector<std::string> MissingWalls(const AGraph& plan, const AGraph& as_built
   return out;
 }
 
+std::vector<FacePresence> FacesOf(const SGraph& map, const AGraph& plan, const JointResult& estimate, const std::string& guid) {
+  return JudgePresence(map, plan, estimate)[test::WallOf(plan, guid)].faces;
+}
+
 // About the middle of wall-middle.
 Eigen::Isometry2d Motion(double dx_m, double yaw_rad) {
   return Eigen::Translation2d(5 + dx_m, 3) * Eigen::Rotation2Dd(yaw_rad) * Eigen::Translation2d(-5, -3);
@@ -94,7 +98,7 @@ TEST(JudgePresence, LinesThatAWallStandingOffWouldLetPassDoNotCount) {
       map.keyframes.push_back(keyframe);
     }
     double sum = 0;
-    for (const FacePresence& face : JudgePresence(map, plan, JointResult())[test::WallOf(plan, "wall-middle")].faces) sum += face.lines;
+    for (const FacePresence& face : FacesOf(map, plan, JointResult(), "wall-middle")) sum += face.lines;
     return sum;
   };
   EXPECT_EQ(lines({2.0f, 1.4f}), 0);     // meets it at y = 5.6, and not at all 0.65 m further on
@@ -152,11 +156,10 @@ TEST(JudgePresence, CountsWhatWasSeenFromWhereTheSensorWas) {
     for (int i = 0; i < 3000; ++i) keyframe.points.push_back(Eigen::Vector3f(5.5f, -2.5f + 0.0018f * static_cast<float>(i), 0));
     map.keyframes.push_back(keyframe);
   }
-  const size_t middle = test::WallOf(plan, "wall-middle");
-  for (const FacePresence& face : JudgePresence(map, plan, estimate)[middle].faces) EXPECT_EQ(face.lines, 0);
+  for (const FacePresence& face : FacesOf(map, plan, estimate, "wall-middle")) EXPECT_EQ(face.lines, 0);
   for (Keyframe& keyframe : map.keyframes) keyframe.standpoints.clear();
   double lines = 0;
-  for (const FacePresence& face : JudgePresence(map, plan, estimate)[middle].faces) lines += face.lines;
+  for (const FacePresence& face : FacesOf(map, plan, estimate, "wall-middle")) lines += face.lines;
   EXPECT_GT(lines, 1000);
 }
 

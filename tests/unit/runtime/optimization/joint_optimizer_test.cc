@@ -193,6 +193,28 @@ TEST(OptimizeJointly, WhatWasSeenOfASideIsCountedForEachOfItsFaces) {
   EXPECT_NEAR(b.seen[1].num_points / b.num_points, 2.0 / 3, 0.05);
 }
 
+// The plan has one part of C's east side in a storey half a floor higher, or in one above.
+TEST(OptimizeJointly, WhatWasSeenOfASideIsCountedAtItsHeight) {
+  const AGraph house = test::MakeHouse();
+  const Solved s = Solve(house, {});
+  const auto num_seen = [&](double higher_m) {
+    AGraph parted = house;
+    parted.surfaces[9].end = house.surfaces[9].midpoint();
+    Surface other = house.surfaces[9];
+    other.start = house.surfaces[9].midpoint();
+    other.z_min_m += higher_m;
+    other.z_max_m += higher_m;
+    other.storey = StoreyId(house.surfaces[9].storey.index() + 1);
+    parted.surfaces.push_back(other);
+    std::vector<WallEstimate> walls = s.result.walls;
+    walls[kEast].seen.clear();
+    CountSeen(s.drive.map, parted, WallFrames(parted), s.matches, s.result.T_plan_map, walls);
+    return walls[kEast].seen.size();
+  };
+  EXPECT_EQ(num_seen(0.6), 2u);
+  EXPECT_EQ(num_seen(2.2), 1u);
+}
+
 TEST(OptimizeJointly, TheSpanOfAWallEndsWithItsFace) {
   AGraph house = test::MakeHouse();
   Solved s = Solve(house, {});

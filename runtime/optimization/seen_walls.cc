@@ -72,7 +72,6 @@ std::vector<double> SeenAt(const MapSurface& patch, const Eigen::Vector2d& along
 std::vector<FaceRange> SharesOfFaces(const SGraph& map, const AGraph& plan, const Match& m, const WallEstimate& wall,
                                      const WallFrame& frame, const Eigen::Isometry3d& T_plan_map) {
   const Surface& matched = plan.surfaces[m.plan_surface.index()];
-  if (matched.arc) return {{m.plan_surface, 0, 0, 0, 0, 1.0}};
   const Eigen::Vector2d along = (matched.end - matched.start).normalized();
   const MapSurface& patch = map.surfaces[m.map_surface];
   std::vector<FaceRange> faces = FacesOfSide(plan, m, patch, T_plan_map.translation().z(), wall, frame);
@@ -91,18 +90,20 @@ std::vector<FaceRange> SharesOfFaces(const SGraph& map, const AGraph& plan, cons
   return faces;
 }
 
-// From where to where along its wall the match's patch reaches, within the face: it may go on along the next wall.
-void AddSpan(const SGraph& map, const AGraph& plan, const std::vector<WallFrame>& frames, const Match& m,
+// From where to where along its wall the match's patch reaches, within the wall's faces: it may go on along the next wall.
+void AddSpan(const SGraph& map, const AGraph& plan, const Match& m, const WallEstimate& wall, const WallFrame& frame,
              const Eigen::Isometry3d& T_plan_map, std::map<WallId, std::pair<double, double>>& spans) {
   const MapSurface& patch = map.surfaces[m.map_surface];
-  const WallId wall = plan.surfaces[m.plan_surface.index()].wall;
-  const WallFrame& frame = frames[wall.index()];
-  auto& [from, to] = spans.try_emplace(wall, 1e300, -1e300).first->second;
-  const Surface& face = plan.surfaces[m.plan_surface.index()];
+  auto& [from, to] = spans.try_emplace(wall.wall, 1e300, -1e300).first->second;
   const auto along = [&](const Eigen::Vector2d& at) {
     return (at - frame.pivot.head<2>()).dot(Eigen::Vector2d(-frame.normal.y(), frame.normal.x()));
   };
-  const auto [face_from, face_to] = std::minmax({along(face.start), along(face.end)});
+  double face_from = 1e300, face_to = -1e300;
+  for (const FaceRange& f : FacesOfSide(plan, m, patch, T_plan_map.translation().z(), wall, frame)) {
+    const Surface& face = plan.surfaces[f.face.index()];
+    face_from = std::min({face_from, along(face.start), along(face.end)});
+    face_to = std::max({face_to, along(face.start), along(face.end)});
+  }
   for (const Eigen::Vector2d& end : {patch.start, patch.end}) {
     const double u = std::clamp(along((T_plan_map * Eigen::Vector3d(end.x(), end.y(), 0)).head<2>()), face_from, face_to);
     from = std::min(from, u);
@@ -131,7 +132,7 @@ void CountSeen(const SGraph& map, const AGraph& plan, const std::vector<WallFram
       s.num_points += counts * f.share * map.surfaces[m.map_surface].num_points;
       s.observed_m2 += counts * f.share * map.surfaces[m.map_surface].area_m2;
     }
-    AddSpan(map, plan, frames, m, T_plan_map, spans);
+    AddSpan(map, plan, m, wall, frames[wall.wall.index()], T_plan_map, spans);
   }
   for (const auto& [id, s] : seen) {
     const WallId wall = plan.surfaces[id.index()].wall;

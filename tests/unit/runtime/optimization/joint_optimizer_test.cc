@@ -209,6 +209,7 @@ TEST(OptimizeJointly, WhatWasSeenOfASideIsCountedAtItsHeight) {
     std::vector<WallEstimate> walls = s.result.walls;
     walls[kEast].seen.clear();
     CountSeen(s.drive.map, parted, WallFrames(parted), s.matches, s.result.T_plan_map, walls);
+    EXPECT_EQ(walls[kEast].span_m > 0.8 * house.surfaces[9].length_m(), walls[kEast].seen.size() > 1);
     return walls[kEast].seen.size();
   };
   EXPECT_EQ(num_seen(0.6), 2u);

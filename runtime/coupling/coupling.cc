@@ -4,11 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
-#include <optional>
 #include <set>
 #include <utility>
 
+#include "runtime/coupling/face_assignment.h"
 #include "runtime/coupling/face_candidates.h"
 #include "runtime/coupling/furniture_fronts.h"
 #include "runtime/coupling/level_matching.h"
@@ -21,15 +20,11 @@
 namespace plumb::runtime {
 namespace {
 
-constexpr double kMinSizeShare = 0.5;      // a line behind another is the wall if it has this share of the front's area, ...
-constexpr double kHigher_m = 0.10;         // ... or is seen this much higher up
-constexpr double kFrontPenalty_nats = 8;   // for taking a surface with a wall visible behind it for the wall
+constexpr double kLeastBeside = 0.1;       // keeps what it divides finite
 constexpr double kInOpeningRatio = 0.6;    // of an observation's extent either way: it is of what fills the opening
 constexpr double kHalfExtentSigmas = 1.7;  // half the extent of evenly spread points
 // Of walls that one patch runs along.
 constexpr double kSameNormal_cos = 0.999, kMinShared_m2 = 0.5, kMaxFlush_m = 0.2, kMinSharedRatio = 0.5;
-constexpr double kSameDirection_rad = 0.052, kDirectionSigmas = 2;  // patches of one line are parallel to this
-constexpr double kStepPerMetre = 0.01;     // lines are compared at a distance: allow for their direction errors
 
 // What one view saw of a face, in the face's coordinates: along it from its start, and up.
 struct ViewExtent {
@@ -69,140 +64,20 @@ double Seen_m(const ViewExtent& view, const Surface& surface) {
   return std::min(surface.length_m(), view.middle.x() + view.reach.x()) - std::max(0.0, view.middle.x() - view.reach.x());
 }
 
-// Collinear patches on one side of one wall.
-struct Line {
-  std::vector<size_t> patches;  // the first is the largest and gives the line
-  double area = 0, z_max = -1e300;
-};
-
-// Of one direction, as far as patches of their lengths can tell?
-bool IsParallel(const Patch& a, const Patch& b) {
-  const double turn = std::atan2(a.normal.x() * b.normal.y() - a.normal.y() * b.normal.x(), a.normal.head<2>().dot(b.normal.head<2>()));
-  return std::abs(turn) < kSameDirection_rad + kDirectionSigmas * kMapSigma_m * (1 / a.length() + 1 / b.length());
-}
-
-// Signed distance of b's middle from a's line, + in front of it (into the free space), beyond what their distance excuses.
-double Step(const Patch& a, const Patch& b, double max_step_m) {
-  const Eigen::Vector2d arm = b.midpoint() - a.midpoint();
-  const double step = a.normal.head<2>().normalized().dot(arm);
-  const double excess = std::abs(step) - kStepPerMetre * arm.norm();
-  return excess > max_step_m ? std::copysign(excess, step) : 0.0;
-}
-
-class Assignment {
- public:
-  Assignment(const std::vector<Patch>& patches, std::vector<std::vector<FaceCandidate>> candidates, const CouplingOptions& options)
-      : patches_(patches), candidates_(std::move(candidates)), options_(options) {
-    for (auto& list : candidates_) {
-      std::erase_if(list, [&](const FaceCandidate& c) { return c.cost_nats > options_.unmatched_cost_nats; });
-      std::stable_sort(list.begin(), list.end(), [](const FaceCandidate& a, const FaceCandidate& b) { return a.cost_nats < b.cost_nats; });
-    }
-  }
-
-  // Each patch takes its cheapest candidate; sides whose patches do not line up keep one line and the others move on. Every turn removes
-  // at least one candidate, so it ends.
-  const std::vector<std::vector<FaceCandidate>>& Solve() {
-    while (ResolveOneSide()) {
-    }
-    return candidates_;
-  }
-
- private:
-  bool ResolveOneSide() {
-    std::vector<std::pair<int, size_t>> by_side;
-    for (size_t i = 0; i < patches_.size(); ++i) {
-      if (!candidates_[i].empty()) by_side.emplace_back(candidates_[i].front().side, i);
-    }
-    std::sort(by_side.begin(), by_side.end());
-    for (size_t from = 0, to = 0; from < by_side.size(); from = to) {
-      std::vector<size_t> members;
-      for (to = from; to < by_side.size() && by_side[to].first == by_side[from].first; ++to) members.push_back(by_side[to].second);
-      const std::vector<Line> lines = Lines(members);
-      if (lines.size() < 2) continue;
-      const size_t wall = ChooseWall(lines, by_side[from].first);
-      for (size_t k = 0; k < lines.size(); ++k) {
-        if (k != wall) for (size_t i : lines[k].patches) DropSide(i, by_side[from].first);
-      }
-      return true;
-    }
-    return false;
-  }
-
-  void DropSide(size_t patch, int side) {
-    std::erase_if(candidates_[patch], [&](const FaceCandidate& c) { return c.side == side; });
-  }
-
-  std::vector<Line> Lines(std::vector<size_t> members) const {
-    std::stable_sort(members.begin(), members.end(), [&](size_t a, size_t b) { return patches_[a].area > patches_[b].area; });
-    std::vector<Line> lines;
-    for (size_t i : members) {
-      auto line = std::find_if(lines.begin(), lines.end(), [&](const Line& l) {
-        const Patch& first = patches_[l.patches.front()];
-        return Step(first, patches_[i], options_.max_step_m) == 0 && IsParallel(first, patches_[i]);
-      });
-      if (line == lines.end()) line = lines.emplace(lines.end());
-      line->patches.push_back(i);
-      line->area += patches_[i].area;
-      line->z_max = std::max(line->z_max, patches_[i].z_max);
-    }
-    return lines;
-  }
-
-  // Mean cost of a line's patches on this side, or of their best candidates elsewhere.
-  double Cost(const Line& line, int side, bool elsewhere) const {
-    double sum = 0;
-    for (size_t i : line.patches) {
-      const auto& list = candidates_[i];
-      const auto other = std::find_if(list.begin(), list.end(), [&](const FaceCandidate& c) { return c.side != side; });
-      sum += !elsewhere ? list.front().cost_nats : other == list.end() ? options_.unmatched_cost_nats : other->cost_nats;
-    }
-    return sum / static_cast<double>(line.patches.size());
-  }
-
-  // Is `behind` a wall seen past `front`?
-  bool Hides(const Line& front, const Line& behind) const {
-    const Patch &f = patches_[front.patches.front()], &b = patches_[behind.patches.front()];
-    const bool is_behind = b.normal.head<2>().dot(b.midpoint() - f.midpoint()) < 0;
-    return is_behind && (behind.z_max > front.z_max + kHigher_m || behind.area >= kMinSizeShare * front.area);
-  }
-
-  size_t ChooseWall(const std::vector<Line>& lines, int side) const {
-    size_t best = 0;
-    double best_cost = 1e300;
-    for (size_t k = 0; k < lines.size(); ++k) {
-      double cost = Cost(lines[k], side, false);
-      bool hides = false;
-      for (size_t j = 0; j < lines.size(); ++j) {
-        if (j == k) continue;
-        const double elsewhere = Cost(lines[j], side, true);
-        cost += elsewhere;
-        hides |= elsewhere >= options_.unmatched_cost_nats && Hides(lines[k], lines[j]);
-      }
-      if (hides) cost += kFrontPenalty_nats;
-      if (cost < best_cost - 1e-9) {
-        best_cost = cost;
-        best = k;
-      }
-    }
-    return best;
-  }
-
-  const std::vector<Patch>& patches_;
-  std::vector<std::vector<FaceCandidate>> candidates_;
-  const CouplingOptions& options_;
-};
-
-AssignedFaces Assigned(const std::vector<PlannedFace>& faces, const std::vector<Patch>& patches,
-                                                 const SightLines& sight, const std::vector<WallDeviation>& known, double max_offset_m,
-                                                 const CouplingOptions& options) {
-  std::vector<std::vector<FaceCandidate>> candidates;
+AssignedFaces Assigned(const AGraph& plan, const std::vector<PlannedFace>& faces, const std::vector<Patch>& patches,
+                       const std::vector<std::vector<WallOpening>>& openings, const SightLines& sight,
+                       const std::vector<WallDeviation>& known, double max_offset_m, const CouplingOptions& options) {
+  AssignedFaces candidates;
   for (const Patch& patch : patches) candidates.push_back(CandidatesOf(patch, faces, sight, known, max_offset_m, options));
-  return Assignment(patches, std::move(candidates), options).Solve();
+  const auto is_seen_through = [&](const Patch& patch, SurfaceId id) {
+    const Surface& surface = plan.surfaces[id.index()];
+    return IsSeenThrough(patch, surface, openings[surface.wall.index()], sight);
+  };
+  return AssignFaces(patches, std::move(candidates), is_seen_through, options);
 }
 
 std::vector<FarWall> FarWalls(const AGraph& plan, const std::vector<WallFrame>& frames, const std::vector<Patch>& patches,
-                              const AssignedFaces& assigned,
-                              const std::vector<std::vector<WallOpening>>& openings, const SightLines& sight,
+                              const AssignedFaces& assigned, const std::vector<std::vector<WallOpening>>& openings, const SightLines& sight,
                               const CouplingOptions& options) {
   std::vector<Patch> unmatched;
   std::vector<bool> matched(plan.walls.size(), false);
@@ -241,9 +116,32 @@ std::vector<FaceCandidate> FacesAlong(const AGraph& plan, const Patch& patch, co
   return faces;
 }
 
+// Match::beside_ratio of the patch on the surface.
+double BesideRatio(const std::vector<PlannedFace>& faces, const Patch& patch, const Surface& surface) {
+  const Eigen::Vector2d along = (surface.end - surface.start).normalized(), n = surface.normal.head<2>();
+  const auto [from, to] = std::minmax({along.dot(patch.start), along.dot(patch.end)});
+  std::vector<std::pair<double, double>> beside;
+  for (const PlannedFace& f : faces) {
+    const Surface& s = *f.surface;
+    if (s.normal.dot(surface.normal) < kSameNormal_cos || std::abs(n.dot(s.start - surface.start)) > kMapSigma_m ||
+        s.z_max_m < patch.z_min || s.z_min_m > patch.z_max)
+      continue;
+    const auto [low, high] = std::minmax({along.dot(s.start), along.dot(s.end)});
+    if (std::min(high, to) > std::max(low, from)) beside.emplace_back(std::max(low, from), std::min(high, to));
+  }
+  std::sort(beside.begin(), beside.end());
+  double sum_m = 0, reached = from;
+  for (const auto& [low, high] : beside) {
+    sum_m += std::max(0.0, high - std::max(low, reached));
+    reached = std::max(reached, high);
+  }
+  return std::max(kLeastBeside, sum_m / (to - from));
+}
+
 // One match per face; each view counts for the face of which it saw most.
 void AddMatches(const SGraph& map, const AGraph& plan, const Patch& patch, const std::vector<FaceCandidate>& faces,
-                const std::vector<std::vector<WallOpening>>& openings, const Eigen::Isometry3d& T_plan_map, std::vector<Match>& matches) {
+                const std::vector<PlannedFace>& planned, const std::vector<std::vector<WallOpening>>& openings,
+                const Eigen::Isometry3d& T_plan_map, std::vector<Match>& matches) {
   const MapSurface& seen = map.surfaces[patch.map_surface];
   std::vector<std::vector<ViewExtent>> views;
   for (const FaceCandidate& c : faces) views.push_back(ExtentsOnFace(map, seen, plan.surfaces[c.surface.index()], T_plan_map));
@@ -263,19 +161,25 @@ void AddMatches(const SGraph& map, const AGraph& plan, const Patch& patch, const
       if (face_of(i) != k || IsInOpening(views[k][i], surface, openings[surface.wall.index()])) mistaken.push_back(i);
     }
     if (mistaken.size() == seen.observations.size()) continue;
-    matches.push_back({patch.map_surface, faces[k].surface, RoomId(), faces[k].offset_m, faces[k].yaw_rad, std::move(mistaken)});
+    const double beside = map.planar ? 1.0 : BesideRatio(planned, patch, surface);
+    matches.push_back({patch.map_surface, faces[k].surface, RoomId(), faces[k].offset_m, faces[k].yaw_rad, std::move(mistaken), beside});
   }
 }
 
 }  // namespace
 
 std::string CouplingOptions::Check() const {
-  const std::pair<const char*, double> positive[] = {{"max_offset_m", max_offset_m},   {"planar_max_offset_m", planar_max_offset_m},
-                                                     {"max_yaw_rad", max_yaw_rad},     {"far_offset_m", far_offset_m},
-                                                     {"far_yaw_rad", far_yaw_rad},     {"max_level_offset_m", max_level_offset_m},
+  const std::pair<const char*, double> positive[] = {{"max_offset_m", max_offset_m},
+                                                     {"planar_max_offset_m", planar_max_offset_m},
+                                                     {"max_yaw_rad", max_yaw_rad},
+                                                     {"far_offset_m", far_offset_m},
+                                                     {"far_yaw_rad", far_yaw_rad},
+                                                     {"max_level_offset_m", max_level_offset_m},
                                                      {"max_unknown_height_m", max_unknown_height_m},
-                                                     {"max_step_m", max_step_m},       {"offset_tau0_m", offset_tau0_m},
-                                                     {"offset_tau1_m", offset_tau1_m}, {"yaw_tau0_rad", yaw_tau0_rad},
+                                                     {"max_step_m", max_step_m},
+                                                     {"offset_tau0_m", offset_tau0_m},
+                                                     {"offset_tau1_m", offset_tau1_m},
+                                                     {"yaw_tau0_rad", yaw_tau0_rad},
                                                      {"yaw_tau1_rad", yaw_tau1_rad}};
   for (const auto& [name, value] : positive) {
     if (!(value > 0)) return fmt::format("CouplingOptions.{} = {}; must be > 0", name, value);
@@ -300,14 +204,14 @@ std::vector<Match> MatchSurfaces(const SGraph& map, const AGraph& plan, const Ei
   const SightLines sight(map, T_plan_map);
   const std::vector<PlannedFace> faces = PlannedFaces(plan, frames, openings);
   const double max_offset_m = map.planar ? options.planar_max_offset_m : options.max_offset_m;
-  AssignedFaces assigned = Assigned(faces, patches, sight, known, max_offset_m, options);
+  AssignedFaces assigned = Assigned(plan, faces, patches, openings, sight, known, max_offset_m, options);
   if (map.planar) {
     DropPlanarFronts(patches, assigned);
   } else if (const std::vector<FarWall> far = FarWalls(plan, frames, patches, assigned, openings, sight, options); !far.empty()) {
     std::vector<WallDeviation> supposed = known;
     supposed.resize(plan.walls.size());
     for (const FarWall& w : far) supposed[w.wall.index()] = w.deviation;
-    assigned = Assigned(faces, patches, sight, supposed, max_offset_m, options);
+    assigned = Assigned(plan, faces, patches, openings, sight, supposed, max_offset_m, options);
   }
 
   std::vector<Match> matches = MatchLevels(map, plan, T_plan_map, options);
@@ -319,7 +223,7 @@ std::vector<Match> MatchSurfaces(const SGraph& map, const AGraph& plan, const Ei
     if (assigned[i].empty()) continue;
     const std::vector<FaceCandidate> along =
         map.planar ? std::vector{assigned[i].front()} : FacesAlong(plan, patches[i], assigned[i], sides);
-    AddMatches(map, plan, patches[i], along, openings, T_plan_map, matches);
+    AddMatches(map, plan, patches[i], along, faces, openings, T_plan_map, matches);
   }
   if (!map.planar) DropLowFronts(plan, frames, patches, matches);
   std::sort(matches.begin(), matches.end(), [](const Match& a, const Match& b) {

@@ -33,6 +33,9 @@ struct FaceCandidate {
 [[nodiscard]] std::vector<PlannedFace> PlannedFaces(const AGraph& plan, const std::vector<WallFrame>& frames,
                                                     const std::vector<std::vector<WallOpening>>& openings);
 
+// Per patch its candidates, the chosen one first.
+using AssignedFaces = std::vector<std::vector<FaceCandidate>>;
+
 // In the faces' order. `known`: by wall, may be shorter. O(faces).
 [[nodiscard]] std::vector<FaceCandidate> CandidatesOf(const Patch& patch, const std::vector<PlannedFace>& faces, const SightLines& sight,
                                                       const std::vector<WallDeviation>& known, double max_offset_m,

@@ -11,9 +11,6 @@
 
 namespace plumb::runtime {
 
-// Per patch its candidates, the chosen one first.
-using AssignedFaces = std::vector<std::vector<FaceCandidate>>;
-
 // Where a wall's two faces were both seen and make it far thicker than planned, one of them is the front of furniture against it and is no
 // match. A planar laser sees of a cupboard no more and no less than of a wall: there it is what stands before its plan.
 void DropPlanarFronts(const std::vector<Patch>& patches, AssignedFaces& assigned);

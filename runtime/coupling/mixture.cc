@@ -39,13 +39,20 @@ Responsibilities AssessMixture(const Eigen::Vector2d& measured, const Eigen::Mat
   // Any case gives the density of all of them; the likeliest best.
   const MixtureComponent& best =
       *std::max_element(k.begin(), k.end(), [](const auto& a, const auto& b) { return a.probability < b.probability; });
-  return {k[2].probability + k[3].probability, k[1].probability + k[3].probability, k[1].probability + k[2].probability + k[3].probability,
-          std::log(best.probability) - best.log_density};
+  const MixtureComponent& way =
+      *std::max_element(k.begin() + 1, k.end(), [](const auto& a, const auto& b) { return a.probability < b.probability; });
+  return {.offset = k[2].probability + k[3].probability,
+          .yaw = k[1].probability + k[3].probability,
+          .any = k[1].probability + k[2].probability + k[3].probability,
+          .cost_nats = std::log(best.probability) - best.log_density,
+          .offset_is_wide = way.offset_is_wide,
+          .yaw_is_wide = way.yaw_is_wide};
 }
 
 Eigen::Vector2d PriorInformation(const Responsibilities& r, const CouplingOptions& options) {
   const auto expected = [](double wide, double tau0, double tau1) { return (1 - wide) / (tau0 * tau0) + wide / (tau1 * tau1); };
-  return {expected(r.offset, options.offset_tau0_m, options.offset_tau1_m), expected(r.yaw, options.yaw_tau0_rad, options.yaw_tau1_rad)};
+  return {expected(r.offset_is_wide ? r.any : 0, options.offset_tau0_m, options.offset_tau1_m),
+          expected(r.yaw_is_wide ? r.any : 0, options.yaw_tau0_rad, options.yaw_tau1_rad)};
 }
 
 Eigen::Vector2d UniformInformation(const CouplingOptions& options) {

@@ -12,6 +12,8 @@ struct Responsibilities {
   double offset = 0, yaw = 0;  // probability that the offset, the yaw comes from the wide component
   double any = 0;              // that at least one of them does: the wall deviates
   double cost_nats = 0;        // -log of the measurement's density under the mixture
+  // Of the likeliest of the cases that deviate.
+  bool offset_is_wide = true, yaw_is_wide = true;
 };
 
 // One case of the mixture, given a measurement.
@@ -30,7 +32,9 @@ struct MixtureComponent {
 [[nodiscard]] Responsibilities AssessMixture(const Eigen::Vector2d& measured, const Eigen::Matrix2d& covariance,
                                              const CouplingOptions& options);
 
-// Expected inverse prior variances (offset, yaw) given the responsibilities: what the M step weights the deviation with.
+// Inverse prior variances (offset, yaw) given the responsibilities: what the M step weights the deviation with. Expected over standing as
+// planned and the likeliest way of deviating. Over all ways, a wall that was seen at one end, moved or turned it does not tell which, would
+// have both held at zero, and its views would have no grip on it.
 [[nodiscard]] Eigen::Vector2d PriorInformation(const Responsibilities& r, const CouplingOptions& options);
 
 // The same for a wall of which nothing is known: inverse variances of the mixture as a whole.

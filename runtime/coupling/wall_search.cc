@@ -12,15 +12,16 @@ namespace {
 constexpr double kMinArea_m2 = 1.0;
 constexpr size_t kMinObservations = 2;
 constexpr double kMinLength_m = 1.0, kMinOverlapRatio = 0.5;
-constexpr double kMinExplained = 0.5;                       // of the patch, by the face
-constexpr double kMinReach_m = 1.4;                         // above the face's foot: most furniture that stands alone is lower
-constexpr size_t kMinLines = 20;                            // that end on it, and that go through the planned place
-constexpr double kMinPassedRatio = 0.6;                     // of those that meet the planned place
-constexpr double kBelowTop_m = 0.3;                         // furniture up to a ceiling leaves this much
-constexpr double kMinClosed = 0.9;                          // of the face's length, if the planned place cannot be seen
-constexpr double kMostSeenOff = 3;                          // of the offset where the wall is least off
-constexpr double kRivalNats = 3;                            // a candidate that is better by less is no better
-constexpr double kSameOffset_m = 0.15, kSameYaw_rad = 0.1;  // one wall's two faces tell the same to this
+constexpr double kMinExplained = 0.5;                           // of the patch, by the face
+constexpr double kMinReach_m = 1.4;                             // above the face's foot: most furniture that stands alone is lower
+constexpr size_t kMinLines = 20;                                // that end on it, and that go through the planned place
+constexpr double kMinPassedRatio = 0.6;                         // of those that meet the planned place
+constexpr double kBelowTop_m = 0.3;                             // furniture up to a ceiling leaves this much
+constexpr double kMinClosed = 0.9;                              // of the face's length, if the planned place cannot be seen
+constexpr double kMostSeenOff = 3;                              // of the offset where the wall is least off
+constexpr double kSameNormal_cos = 0.999, kSamePlane_m = 0.02;  // of faces of one side
+constexpr double kRivalNats = 3;                                // a candidate that is better by less is no better
+constexpr double kSameOffset_m = 0.15, kSameYaw_rad = 0.1;      // one wall's two faces tell the same to this
 
 struct Found {
   size_t patch;
@@ -62,7 +63,10 @@ class Search {
     const double from = std::max(0.0, std::min(a0, a1)), to = std::min(surface.length_m(), std::max(a0, a1));
     if (to - from < kMinLength_m || OverlapRatio(std::min(a0, a1), std::max(a0, a1), 0, surface.length_m()) < kMinOverlapRatio)
       return std::nullopt;
-    const double explained = ExplainedRatio(patch, surface);
+    const std::vector<const Surface*> side = SideOf(surface);
+    double explained = 0;
+    for (const Surface* face : side) explained += ExplainedRatio(patch, *face);
+    explained = std::min(1.0, explained);  // each with its margins
     if (explained < kMinExplained) return std::nullopt;
     // Gated where the wall is least off: a long one that is turned is off by more than a metre away from there.
     const auto [a, b] = EndOffsets_m(patch, surface);
@@ -71,7 +75,7 @@ class Search {
     const Eigen::Vector2d seen_at = 0.5 * (patch.start + patch.end);
     if (std::abs(n.head<2>().dot(seen_at - surface.start)) > kMostSeenOff * options_.far_offset_m) return std::nullopt;
     const WallDeviation deviation = DeviationOf(patch, MakeFace(frames_[surface.wall.index()], surface), yaw);
-    if (!IsProven(patch, surface, to - from)) return std::nullopt;
+    if (!IsProven(patch, surface, side, to - from)) return std::nullopt;
     const double yaw_sigmas = yaw / options_.yaw_tau1_rad;
     return Found{index,
                  {surface.wall, deviation},
@@ -90,13 +94,30 @@ class Search {
     return {offset_m(wall.axis_start), offset_m(wall.axis_end)};
   }
 
-  [[nodiscard]] bool IsProven(const Patch& patch, const Surface& surface, double overlap_m) const {
+  // Rooms divide one side of a wall into faces, and a patch may run along several.
+  [[nodiscard]] std::vector<const Surface*> SideOf(const Surface& surface) const {
+    std::vector<const Surface*> out;
+    for (const Surface& s : plan_.surfaces) {
+      const bool same = s.wall == surface.wall && s.storey == surface.storey && !s.arc && s.normal.dot(surface.normal) > kSameNormal_cos;
+      if (same && std::abs(surface.normal.head<2>().dot(s.start - surface.start)) < kSamePlane_m) out.push_back(&s);
+    }
+    return out;
+  }
+
+  [[nodiscard]] bool IsProven(const Patch& patch, const Surface& surface, const std::vector<const Surface*>& side, double overlap_m) const {
     const std::vector<WallOpening>& openings = openings_[surface.wall.index()];
-    if (IsSeenThrough(patch, surface, openings, sight_)) return false;
-    const SightLines::Count here = sight_.Meeting({patch.midpoint(), patch.normal.head<2>().normalized(), &surface, &openings});
+    SightLines::Count here, planned;
+    const auto add = [&](const SightLines::Count& more, SightLines::Count& sum) {
+      sum.ended += more.ended;
+      sum.passed += more.passed;
+    };
+    for (const Surface* face : side) {
+      if (ExplainedRatio(patch, *face) == 0) continue;
+      if (IsSeenThrough(patch, *face, openings, sight_)) return false;
+      add(sight_.Meeting({patch.midpoint(), patch.normal.head<2>().normalized(), face, &openings}), here);
+      add(sight_.Meeting({face->midpoint(), face->normal.head<2>().normalized(), face, &openings}), planned);
+    }
     if (here.ended < kMinLines) return false;
-    const SightLines::Count planned =
-        sight_.Meeting({0.5 * (surface.start + surface.end), surface.normal.head<2>().normalized(), &surface, &openings});
     if (planned.passed >= kMinLines &&
         static_cast<double>(planned.passed) >= kMinPassedRatio * static_cast<double>(planned.passed + planned.ended))
       return true;

@@ -32,6 +32,18 @@ double TestVariance_m2(const WallEstimate& wall, const Eigen::Vector2d& gain, co
          options.tolerance_offset_m * options.tolerance_offset_m;
 }
 
+// What the evidence says where it says it best, along the wall: far from where a wall was seen its offset hangs on its turn.
+struct BestKnown {
+  double offset_m = 0;
+  Eigen::Vector2d gain = Eigen::Vector2d::UnitX();  // of (offset_m, yaw_rad)
+};
+BestKnown WhereKnownBest(const WallEvidence& evidence) {
+  BestKnown out;
+  if (evidence.covariance(1, 1) > 0) out.gain.y() = -evidence.covariance(0, 1) / evidence.covariance(1, 1);
+  out.offset_m = out.gain.dot(evidence.measured);
+  return out;
+}
+
 // Which hypotheses are rejected at the given false discovery rate.
 std::vector<bool> BenjaminiHochberg(const std::vector<double>& p_values, double rate) {
   std::vector<double> sorted = p_values;
@@ -63,12 +75,16 @@ std::vector<SurfaceStatus> WallStatuses(const JointResult& estimate, const Devia
     const double measured_m = std::abs(w.evidence.measured.x());
     const bool testable = MinimalDetectable_m(variance_m2) <= options.max_mdb_m;
     // A turn read off a short piece of a wall that may stand anywhere is no finding.
-    const bool placed = testable || measured_m > two_sigma_m;
+    const BestKnown best = WhereKnownBest(w.evidence);
+    const bool placed = testable || std::abs(best.offset_m) > 2 * std::sqrt(TestVariance_m2(w, best.gain, options));
     const bool a_box =
         std::abs(w.deviation.yaw_rad) >= options.turned_rad && w.observed_m2 < options.min_turned_m2 && w.span_m < options.min_turned_m;
-    const bool deviated = rejected[k] && large && w.p_deviated >= options.min_p_deviated && placed && !a_box;
-    // Nor is a wall as planned whose evidence alone says that it is not.
-    const bool tested = testable && measured_m + two_sigma_m <= options.max_undecided_m && !(rejected[k] && large);
+    // Nor is one that stands farther off than it was seen long: its like stands anywhere.
+    const bool known_again = w.span_m >= std::abs(best.offset_m);
+    const bool deviated = rejected[k] && large && w.p_deviated >= options.min_p_deviated && placed && !a_box && known_again;
+    // Nor is a wall as planned whose evidence alone says that it is not, or that is more likely not to be.
+    const bool tested = testable && measured_m + two_sigma_m <= options.max_undecided_m && !(rejected[k] && large) &&
+                        w.p_deviated <= options.max_p_as_planned;
     statuses[observed[k]] = deviated ? SurfaceStatus::kDeviated : tested ? SurfaceStatus::kAsPlanned : SurfaceStatus::kUnobserved;
   }
   return statuses;
@@ -152,8 +168,10 @@ std::string DeviationOptions::Check() const {
   if (!(false_discovery_rate > 0 && false_discovery_rate < 1)) {
     return fmt::format("DeviationOptions.false_discovery_rate = {}; must be in (0, 1)", false_discovery_rate);
   }
-  if (!(min_p_deviated >= 0 && min_p_deviated <= 1))
-    return fmt::format("DeviationOptions.min_p_deviated = {}; must be in [0, 1]", min_p_deviated);
+  const std::pair<const char*, double> probabilities[] = {{"min_p_deviated", min_p_deviated}, {"max_p_as_planned", max_p_as_planned}};
+  for (const auto& [name, value] : probabilities) {
+    if (!(value >= 0 && value <= 1)) return fmt::format("DeviationOptions.{} = {}; must be in [0, 1]", name, value);
+  }
   const std::pair<const char*, double> magnitudes[] = {{"tolerance_offset_m", tolerance_offset_m},
                                                        {"tolerance_yaw_rad", tolerance_yaw_rad},
                                                        {"min_offset_m", min_offset_m},

@@ -15,10 +15,11 @@
 namespace plumb::runtime {
 namespace {
 
-constexpr double kMinStanding_m2 = 0.5;  // of a wall that is known to stand
-constexpr double kBeyond_m = 0.10;       // a line that goes on so far behind a wall's back has passed it
-constexpr double kOnThing_m = 0.10;      // of what is seen from where it is planned
-constexpr double kProbe_m = 0.05;        // a face is where its triangles are, to this
+constexpr double kMinStanding_m2 = 0.5;                      // of a wall that is known to stand
+constexpr double kStanding_m = 0.06, kStanding_rad = 0.087;  // of where it is planned
+constexpr double kBeyond_m = 0.10;                           // a line that goes on so far behind a wall's back has passed it
+constexpr double kOnThing_m = 0.10;                          // of what is seen from where it is planned
+constexpr double kProbe_m = 0.05;                            // a face is where its triangles are, to this
 
 struct Cell {
   bool solid = false;  // the plan has wall all over the cell and about it
@@ -161,15 +162,26 @@ std::vector<FaceGrid> MakeGrids(const AGraph& plan, const PresenceOptions& optio
 class Presence {
  public:
   Presence(const SGraph& map, const AGraph& plan, const JointResult& estimate, const PresenceOptions& options)
-      : map_(map), options_(options), T_plan_map_(estimate.T_plan_map), grids_(MakeGrids(plan, options)),
-        near_walls_(Panels(grids_), options.gate_m), standing_(plan, estimate, kMinStanding_m2), things_(plan),
-        result_(plan.walls.size()), keyframes_(plan.walls.size()) {}
+      : map_(map),
+        plan_(plan),
+        estimate_(estimate),
+        options_(options),
+        T_plan_map_(estimate.T_plan_map),
+        grids_(MakeGrids(plan, options)),
+        near_walls_(Panels(grids_), options.gate_m),
+        standing_(plan, estimate, kMinStanding_m2),
+        things_(plan),
+        result_(plan.walls.size()),
+        keyframes_(plan.walls.size()) {}
 
   std::vector<WallPresence> Run() {
     ForEachSight(map_, T_plan_map_, [this](const Sight& sight) { Count(sight); });
     std::vector<std::vector<const FaceGrid*>> by_wall(result_.size());
     for (const FaceGrid& g : grids_) by_wall[g.wall.index()].push_back(&g);
     for (size_t w = 0; w < by_wall.size(); ++w) Decide(by_wall[w], result_[w]);
+    for (const WallEstimate& wall : estimate_.walls) {
+      if (StandsInPart(wall)) result_[wall.wall.index()].missing = false;
+    }
     return std::move(result_);
   }
 
@@ -212,6 +224,12 @@ class Presence {
     return m.u > aside_m && m.u < g.panel.length_m - aside_m;
   }
 
+  // Was some of it seen where it is planned? A wall is cut short where the next one was built through its place, and seen through there.
+  [[nodiscard]] bool StandsInPart(const WallEstimate& wall) const {
+    return std::abs(wall.deviation.offset_m) < kStanding_m && std::abs(wall.deviation.yaw_rad) < kStanding_rad &&
+           wall.span_m >= options_.min_length_ratio * plan_.surfaces[wall.reference.index()].length_m();
+  }
+
   [[nodiscard]] bool IsOpen(const Cell& cell) const {
     return cell.passed >= static_cast<uint32_t>(options_.min_lines) && cell.keyframes >= static_cast<uint32_t>(options_.min_keyframes) &&
            cell.passed >= options_.min_cell_ratio * static_cast<double>(cell.passed + cell.ended);
@@ -252,6 +270,8 @@ class Presence {
   }
 
   const SGraph& map_;
+  const AGraph& plan_;
+  const JointResult& estimate_;
   const PresenceOptions& options_;
   const Eigen::Isometry3d T_plan_map_;
   std::vector<FaceGrid> grids_;

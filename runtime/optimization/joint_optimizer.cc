@@ -221,6 +221,11 @@ class Optimizer {
     return out;
   }
 
+  static void Widen(const PatchDisagreement& disagreement, WallEvidence& evidence) {
+    if (disagreement.variance_ratio > 1) evidence = {disagreement.mean, disagreement.variance_ratio * evidence.covariance};
+    evidence.covariance += disagreement.let_go;
+  }
+
   WallEstimate Estimate(size_t w, const std::optional<JointCovariances>& covariances, const std::vector<RivalPlace>& rivals,
                         const PatchDisagreement* disagreement) const {
     WallEstimate e;
@@ -243,7 +248,7 @@ class Optimizer {
     if (held()) return e;
     const Eigen::Vector2d estimate(e.deviation.offset_m, e.deviation.yaw_rad);
     e.evidence = WithoutPrior(estimate, e.cov, priors_[w], options_.coupling);
-    if (disagreement) e.evidence = {disagreement->mean, disagreement->variance_ratio * e.evidence.covariance};
+    if (disagreement) Widen(*disagreement, e.evidence);
     const std::vector<MeasuredElsewhere> places = Places(w, rivals);
     for (const MeasuredElsewhere& place : places) e.place_sigma_m += place.probability * place.shift.x() * place.shift.x();
     e.place_sigma_m = std::sqrt(e.place_sigma_m);

@@ -2,7 +2,6 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/LU>
-
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -23,7 +22,7 @@ constexpr double kAnchorSigma_m = 1e-4, kAnchorSigma_rad = 1e-4;
 // Far weaker than any observation: they only keep the problem regular where nothing was observed (a corridor, no floor, a line of points).
 constexpr std::array<double, kPlaceSize> kPlaceWeight{0.1, 0.1, 0.1, 1.0};
 constexpr double kHeldHeight_m = 0.005;  // without floor or ceiling, walls a thousandth off plumb would drag the height along by metres
-constexpr double kLoopLoss = 2.0;  // in sigmas
+constexpr double kLoopLoss = 2.0;        // in sigmas
 
 }  // namespace
 
@@ -122,7 +121,7 @@ struct JointProblem::Impl {
         const Observation& o = observations[i];
         if (m.IsMistaken(i)) continue;
         problem.AddResidualBlock(Cost<WallViewResidual, 3, kPoseSize, kPlaceSize, kNumWallParameters, 1>(
-                                     {PlaneView(o.stats, NoiseOf(options, map.keyframes[o.keyframe]), observations.size()), face}),
+                                     {PlaneView(o.stats, NoiseOf(options, map.keyframes[o.keyframe], m), observations.size()), face}),
                                  held ? nullptr : &observation_loss, state.poses[o.keyframe].data(), state.place.data(), wall,
                                  &state.bias_m);
       }

@@ -15,12 +15,16 @@ struct PatchDisagreement {
   // By how much larger the wall's variances are than its patches' own say (Birge's ratio, squared): chi-square of the patches' deviations
   // about their weighted mean by its degrees of freedom.
   double variance_ratio = 1;
-  Eigen::Vector2d mean = Eigen::Vector2d::Zero();  // (offset_m, yaw_rad): the solve settles on one of them instead
+  // Of all that were asked, (offset_m, yaw_rad), if the ratio is above 1: the solve settles on one of them instead.
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  // To be added to the variances: mean square of how far off is what the solve has let go of, by area, if that is more than a third of what
+  // was seen of the wall; zero if less.
+  Eigen::Matrix2d let_go = Eigen::Matrix2d::Zero();
 };
 
 // By wall; walls whose patches agree (chi-square, 99 %) are left out. `estimates`: (offset_m, yaw_rad, thickness error in m) of every wall
-// that has matches. Patches so far from it that the solve's loss has let go of them (a tenth of their weight) are not asked. Other
-// arguments as MeasureWalls(); O(views).
+// that has matches. Patches so far from it that the solve's loss has let go of them (a tenth of their weight) are not asked: they are one
+// odd thing or two, unless they are much of the wall. Other arguments as MeasureWalls(); O(views).
 [[nodiscard]] std::map<WallId, PatchDisagreement> FindDisagreements(const SGraph& map, const AGraph& plan,
                                                                     const std::vector<WallFrame>& frames, const std::vector<Match>& matches,
                                                                     const std::vector<Eigen::Isometry3d>& T_map_kf,

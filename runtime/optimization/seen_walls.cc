@@ -7,7 +7,8 @@
 namespace plumb::runtime {
 namespace {
 
-constexpr double kSameSide = 0.9;  // cosine between normals of faces of one side of a wall
+constexpr double kMinHeightOverlap = 0.5;  // of the lower of a patch and a face
+constexpr double kSameSide = 0.9;          // cosine between normals of faces of one side of a wall
 
 // Of the points of a match's patch, those that say something of its wall.
 double ShareThatCounts(const SGraph& map, const Match& m) {
@@ -20,46 +21,99 @@ double ShareThatCounts(const SGraph& map, const Match& m) {
   return all > 0 ? counts / all : 0;
 }
 
-// Rooms divide one side of a wall into several faces: how much of a match's patch lies on each. The shares add up to one.
-std::vector<std::pair<SurfaceId, double>> SharesOfFaces(const SGraph& map, const AGraph& plan, const Match& m,
-                                                        const Eigen::Isometry3d& T_plan_map) {
-  const Surface& matched = plan.surfaces[m.plan_surface.index()];
-  const MapSurface& patch = map.surfaces[m.map_surface];
-  const Eigen::Vector2d along = (matched.end - matched.start).normalized();
-  const auto u = [&](const Eigen::Vector2d& at) { return along.dot((T_plan_map * Eigen::Vector3d(at.x(), at.y(), 0)).head<2>()); };
-  const auto [from, to] = std::minmax({u(patch.start), u(patch.end)});
-  std::vector<std::pair<SurfaceId, double>> shares;
-  double total_m = 0;
-  for (size_t i = 0; i < plan.surfaces.size() && !matched.arc; ++i) {
-    const Surface& face = plan.surfaces[i];
-    if (face.wall != matched.wall || face.storey != matched.storey || face.arc || face.normal.dot(matched.normal) < kSameSide) continue;
-    const double common_m = std::min(to, along.dot(face.end)) - std::max(from, along.dot(face.start));
-    if (common_m <= 0) continue;
-    shares.emplace_back(SurfaceId(i), common_m);
-    total_m += common_m;
-  }
-  if (shares.empty()) return {{m.plan_surface, 1.0}};
-  for (auto& [face, share] : shares) share /= total_m;
-  return shares;
+// By how much the wall is off at a place.
+double Off_m(const WallEstimate& wall, const WallFrame& frame, const Eigen::Vector2d& at) {
+  const Eigen::Vector2d arm = at - frame.pivot.head<2>();
+  return std::abs(wall.deviation.offset_m + wall.deviation.yaw_rad * frame.normal.head<2>().dot(Eigen::Vector2d(-arm.y(), arm.x())));
 }
 
-// From where to where along its wall the match's patch reaches, within the face: it may go on along the next wall.
-void AddSpan(const SGraph& map, const AGraph& plan, const std::vector<WallFrame>& frames, const Match& m,
+// A face of one side of a wall: from where to where it is planned along the wall, and may have been built: a wall that is off meets the
+// next one as much earlier or later.
+struct FaceRange {
+  SurfaceId face;
+  double from, to, may_from, may_to;
+  double share = 0;
+};
+
+// At the height of the patch, whatever the storey: storeys may be half a floor apart.
+std::vector<FaceRange> FacesOfSide(const AGraph& plan, const Match& m, const MapSurface& patch, double z_shift_m, const WallEstimate& wall,
+                                   const WallFrame& frame) {
+  const Surface& matched = plan.surfaces[m.plan_surface.index()];
+  const Eigen::Vector2d along = (matched.end - matched.start).normalized();
+  const double z_min_m = patch.z_min_m + z_shift_m, z_max_m = patch.z_max_m + z_shift_m;
+  std::vector<FaceRange> out;
+  for (size_t i = 0; i < plan.surfaces.size(); ++i) {
+    const Surface& face = plan.surfaces[i];
+    if (face.wall != matched.wall || face.arc || face.normal.dot(matched.normal) < kSameSide) continue;
+    const double common_m = std::min(face.z_max_m, z_max_m) - std::max(face.z_min_m, z_min_m);
+    const double shorter_m = std::min(face.z_max_m - face.z_min_m, z_max_m - z_min_m);
+    if (&face != &matched && common_m < kMinHeightOverlap * shorter_m) continue;
+    const bool forth = along.dot(face.end - face.start) > 0;
+    const Eigen::Vector2d &low = forth ? face.start : face.end, &high = forth ? face.end : face.start;
+    const double from = along.dot(low), to = along.dot(high);
+    out.push_back({SurfaceId(i), from, to, from - Off_m(wall, frame, low), to + Off_m(wall, frame, high)});
+  }
+  return out;
+}
+
+// Where along the wall the patch was seen, evenly.
+std::vector<double> SeenAt(const MapSurface& patch, const Eigen::Vector2d& along, const Eigen::Isometry3d& T_plan_map) {
+  const auto u = [&](const Eigen::Vector2d& at) { return along.dot((T_plan_map * Eigen::Vector3d(at.x(), at.y(), 0)).head<2>()); };
+  const double start = u(patch.start), end = u(patch.end), length_m = patch.length_m();
+  std::vector<double> out;
+  for (const Eigen::Vector2f& cell : patch.cells) out.push_back(start + cell.x() / length_m * (end - start));
+  constexpr int kParts = 100;
+  for (int i = 0; i < kParts && patch.cells.empty(); ++i) out.push_back(start + (i + 0.5) / kParts * (end - start));
+  return out;
+}
+
+// Rooms divide one side of a wall into several faces: how much of a match's patch lies on each. What goes on beyond the wall is no part of
+// it, so the shares add up to one at most.
+std::vector<FaceRange> SharesOfFaces(const SGraph& map, const AGraph& plan, const Match& m, const WallEstimate& wall,
+                                     const WallFrame& frame, const Eigen::Isometry3d& T_plan_map) {
+  const Surface& matched = plan.surfaces[m.plan_surface.index()];
+  const Eigen::Vector2d along = (matched.end - matched.start).normalized();
+  const MapSurface& patch = map.surfaces[m.map_surface];
+  std::vector<FaceRange> faces = FacesOfSide(plan, m, patch, T_plan_map.translation().z(), wall, frame);
+  const std::vector<double> seen_at = SeenAt(patch, along, T_plan_map);
+  double of_wall = 0, on_faces = 0;
+  for (const double at : seen_at) {
+    of_wall += std::any_of(faces.begin(), faces.end(), [&](const FaceRange& f) { return at >= f.may_from && at <= f.may_to; }) ? 1 : 0;
+    for (FaceRange& f : faces) {
+      if (at < f.from || at > f.to) continue;
+      ++f.share;
+      ++on_faces;
+    }
+  }
+  for (FaceRange& f : faces) f.share *= on_faces > 0 ? of_wall / (on_faces * static_cast<double>(seen_at.size())) : 0;
+  std::erase_if(faces, [](const FaceRange& f) { return f.share <= 0; });
+  return faces;
+}
+
+// From where to where along its wall the match's patch reaches, within the wall's faces: it may go on along the next wall.
+void AddSpan(const SGraph& map, const AGraph& plan, const Match& m, const WallEstimate& wall, const WallFrame& frame,
              const Eigen::Isometry3d& T_plan_map, std::map<WallId, std::pair<double, double>>& spans) {
   const MapSurface& patch = map.surfaces[m.map_surface];
-  const WallId wall = plan.surfaces[m.plan_surface.index()].wall;
-  const WallFrame& frame = frames[wall.index()];
-  auto& [from, to] = spans.try_emplace(wall, 1e300, -1e300).first->second;
-  const Surface& face = plan.surfaces[m.plan_surface.index()];
+  auto& [from, to] = spans.try_emplace(wall.wall, 1e300, -1e300).first->second;
   const auto along = [&](const Eigen::Vector2d& at) {
     return (at - frame.pivot.head<2>()).dot(Eigen::Vector2d(-frame.normal.y(), frame.normal.x()));
   };
-  const auto [face_from, face_to] = std::minmax({along(face.start), along(face.end)});
+  double face_from = 1e300, face_to = -1e300;
+  for (const FaceRange& f : FacesOfSide(plan, m, patch, T_plan_map.translation().z(), wall, frame)) {
+    const Surface& face = plan.surfaces[f.face.index()];
+    face_from = std::min({face_from, along(face.start), along(face.end)});
+    face_to = std::max({face_to, along(face.start), along(face.end)});
+  }
   for (const Eigen::Vector2d& end : {patch.start, patch.end}) {
     const double u = std::clamp(along((T_plan_map * Eigen::Vector3d(end.x(), end.y(), 0)).head<2>()), face_from, face_to);
     from = std::min(from, u);
     to = std::max(to, u);
   }
+}
+
+// `walls` by id; it is one of them.
+WallEstimate& EstimateOf(WallId wall, std::vector<WallEstimate>& walls) {
+  return *std::lower_bound(walls.begin(), walls.end(), wall, [](const WallEstimate& a, WallId b) { return a.wall < b; });
 }
 
 }  // namespace
@@ -71,17 +125,18 @@ void CountSeen(const SGraph& map, const AGraph& plan, const std::vector<WallFram
   for (const Match& m : matches) {
     if (!m.plan_surface.valid()) continue;
     const double counts = m.mistaken.empty() ? 1.0 : ShareThatCounts(map, m);
-    for (const auto& [face, share] : SharesOfFaces(map, plan, m, T_plan_map)) {
-      SeenSurface& s = seen[face];
-      s.surface = face;
-      s.num_points += counts * share * map.surfaces[m.map_surface].num_points;
-      s.observed_m2 += counts * share * map.surfaces[m.map_surface].area_m2;
+    const WallEstimate& wall = EstimateOf(plan.surfaces[m.plan_surface.index()].wall, walls);
+    for (const FaceRange& f : SharesOfFaces(map, plan, m, wall, frames[wall.wall.index()], T_plan_map)) {
+      SeenSurface& s = seen[f.face];
+      s.surface = f.face;
+      s.num_points += counts * f.share * map.surfaces[m.map_surface].num_points;
+      s.observed_m2 += counts * f.share * map.surfaces[m.map_surface].area_m2;
     }
-    AddSpan(map, plan, frames, m, T_plan_map, spans);
+    AddSpan(map, plan, m, wall, frames[wall.wall.index()], T_plan_map, spans);
   }
   for (const auto& [id, s] : seen) {
     const WallId wall = plan.surfaces[id.index()].wall;
-    WallEstimate& e = *std::lower_bound(walls.begin(), walls.end(), wall, [](const WallEstimate& a, WallId b) { return a.wall < b; });
+    WallEstimate& e = EstimateOf(wall, walls);
     e.seen.push_back(s);
     e.num_points += s.num_points;
     e.observed_m2 += s.observed_m2;

@@ -7,7 +7,7 @@
 namespace plumb::runtime {
 namespace {
 
-constexpr double kLoosePrior_m = 1.0, kLoosePrior_rad = 0.35;   // a short patch leaves the yaw open
+constexpr double kLoosePrior_m = 1.0, kLoosePrior_rad = 0.35;  // a short patch leaves the yaw open
 
 // Least squares over one wall's (offset, yaw, thickness error) and the range bias.
 enum Unknown : int { kOffset, kYaw, kThickness, kBias };
@@ -60,9 +60,19 @@ ViewNoise NoiseOf(const JointOptions& options, const Keyframe& seen_from) {
   return noise;
 }
 
+ViewNoise NoiseOf(const JointOptions& options, const Keyframe& seen_from, const Match& match) {
+  ViewNoise noise = NoiseOf(options, seen_from);
+  // As of a patch no longer than what lies beside the face: its variance goes with the square of its length.
+  noise.edge_m2 /= match.beside_ratio * match.beside_ratio;
+  return noise;
+}
+
 ViewNoise NoiseOf(const JointOptions& options) {
-  return {.point_sigma_m = options.point_sigma_m, .correlation = options.correlation, .floor_m = options.observation_floor_m,
-          .floor_rad = options.observation_floor_rad, .edge_m2 = options.edge_m2};
+  return {.point_sigma_m = options.point_sigma_m,
+          .correlation = options.correlation,
+          .floor_m = options.observation_floor_m,
+          .floor_rad = options.observation_floor_rad,
+          .edge_m2 = options.edge_m2};
 }
 
 std::vector<WallMeasurement> MeasureWalls(const SGraph& map, const AGraph& plan, const std::vector<WallFrame>& frames,
@@ -77,8 +87,8 @@ std::vector<WallMeasurement> MeasureWalls(const SGraph& map, const AGraph& plan,
     for (size_t i = 0; i < observations.size(); ++i) {
       const Observation& o = observations[i];
       if (match.IsMistaken(i)) continue;
-      AddView(PlaneView(o.stats, NoiseOf(options, map.keyframes[o.keyframe]), observations.size()), T_plan_map * T_map_kf[o.keyframe], face,
-              walls.try_emplace(surface.wall, options.thickness_sigma_m).first->second);
+      AddView(PlaneView(o.stats, NoiseOf(options, map.keyframes[o.keyframe], match), observations.size()),
+              T_plan_map * T_map_kf[o.keyframe], face, walls.try_emplace(surface.wall, options.thickness_sigma_m).first->second);
     }
   }
   std::vector<WallMeasurement> out;

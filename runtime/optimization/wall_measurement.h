@@ -25,6 +25,7 @@ struct WallMeasurement {
 };
 
 [[nodiscard]] ViewNoise NoiseOf(const JointOptions& options, const Keyframe& seen_from);
+[[nodiscard]] ViewNoise NoiseOf(const JointOptions& options, const Keyframe& seen_from, const Match& match);  // of a wall
 [[nodiscard]] ViewNoise NoiseOf(const JointOptions& options);  // of a view from no keyframe in particular
 
 // One per wall that `matches` sees, by wall id. Linear least squares about the planned place (second order in yaw). T_map_kf per keyframe.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <tuple>
 
 #include "runtime/coupling/wall_frame.h"
 #include "tests/support/house.h"
@@ -233,6 +234,26 @@ TEST(MatchSurfaces, FindsAWallFarTurnedAboutAnyPlaceInIt) {
   }
 }
 
+// Each of the faces that rooms divide its side into was met by too few lines to tell alone.
+TEST(MatchSurfaces, FindsAWallFarOffByWhatIsSeenOfAllItsFaces) {
+  const AGraph whole = test::MakeHouse();
+  AGraph parted = whole;
+  parted.surfaces[9].end = whole.surfaces[9].midpoint();
+  parted.surfaces.push_back(whole.surfaces[9]);
+  parted.surfaces.back().start = whole.surfaces[9].midpoint();
+  Scene scene;
+  const Eigen::Vector2d start(9.58, 1.2), end(9.58, 4.8);
+  const uint32_t patch = scene.Add(start, end, 0.1, 2.5);
+  scene.map.surfaces[patch].observations.push_back(scene.map.surfaces[patch].observations.front());
+  scene.See({6, 3, 0.6}, start, end, 0.5, 0.7);
+  const auto wall_of = [&](const AGraph& plan) {
+    const SurfaceId found = scene.Of(plan, patch);
+    return found.valid() ? plan.surfaces[found.index()].wall : WallId();
+  };
+  EXPECT_EQ(wall_of(whole), whole.surfaces[9].wall);
+  EXPECT_EQ(wall_of(parted), whole.surfaces[9].wall);
+}
+
 TEST(MatchSurfaces, FindsNoWallFarOffWhereTwoStandForIt) {
   const AGraph house = test::MakeHouse();
   Scene scene;
@@ -324,6 +345,34 @@ TEST(MatchSurfaces, APatchAlongTwoWallsIsOfBoth) {
   EXPECT_EQ(matches[1].plan_surface, SurfaceId(8));
   EXPECT_EQ(matches[1].mistaken, std::vector<uint32_t>{0});
   EXPECT_NEAR(matches[1].offset_m, -0.2, 1e-9);
+}
+
+// The wall is turned: half of it is behind where it was planned, and seen there past the line that something else of its plane lies on.
+TEST(MatchSurfaces, AWallIsNotWhereItIsSeenPast) {
+  const AGraph house = test::MakeHouse();
+  Scene scene;
+  const Eigen::Vector2d south(8.6, 0.3), north(9.6, 5.7);
+  const uint32_t wall = scene.Add(south, north, 0.2, 2.4), planned = scene.Add({9, 0.3}, {9, 2.8}, 0.2, 2.5);
+  EXPECT_EQ(scene.Of(house, planned), SurfaceId(9));  // nothing speaks against it yet
+  scene.See({7, 3, 1}, south, north, 0.2, 2.4);
+  EXPECT_EQ(scene.Of(house, wall), SurfaceId(9));
+  EXPECT_FALSE(scene.Of(house, planned).valid());
+}
+
+TEST(MatchSurfaces, TellsHowMuchOfAPatchLiesBesidePlannedFaces) {
+  AGraph house = test::MakeHouse();
+  Scene scene;
+  scene.Add({9, 2}, {9, 10});  // the wall ends at y = 6
+  const auto ratio = [&] { return MatchSurfaces(scene.map, house, Eigen::Isometry3d::Identity(), {}).at(0).beside_ratio; };
+  EXPECT_NEAR(ratio(), 0.5, 0.01);
+  Surface on = house.surfaces[9];  // of another wall: in the same plane, ...
+  on.wall = WallId(house.walls.size());
+  house.walls.push_back(house.walls[house.surfaces[9].wall.index()]);
+  std::tie(on.start, on.end) = std::pair(Eigen::Vector2d(9, 7), Eigen::Vector2d(9, 9));
+  house.surfaces.push_back(on);
+  EXPECT_NEAR(ratio(), 0.75, 0.01);
+  for (Eigen::Vector2d* at : {&house.surfaces.back().start, &house.surfaces.back().end}) at->x() += 0.1;  // ... or 10 cm behind it
+  EXPECT_NEAR(ratio(), 0.5, 0.01);
 }
 
 TEST(CouplingOptions, CheckNamesFieldValueAndRule) {

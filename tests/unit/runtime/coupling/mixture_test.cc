@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -41,6 +42,20 @@ TEST(Mixture, PriorInformationRunsFromTightToWide) {
   const CouplingOptions options;
   EXPECT_DOUBLE_EQ(PriorInformation({0, 0, 0, 0}, options).x(), 1 / (options.offset_tau0_m * options.offset_tau0_m));
   EXPECT_DOUBLE_EQ(PriorInformation({1, 1, 1, 0}, options).y(), 1 / (options.yaw_tau1_rad * options.yaw_tau1_rad));
+}
+
+// Seen at an end, 2 m from the middle, 15 cm off: it moved or it turned.
+TEST(Mixture, AWallThatDeviatesInOneOfTwoWaysIsHeldInTheOtherAlone) {
+  const CouplingOptions options;
+  constexpr double kArm_m = 2, kOff_m = 0.15, kTurn_rad = 0.035, kSigma_m = 0.005, kSigma_rad = 0.03;
+  Eigen::Matrix2d covariance;
+  covariance << kSigma_m * kSigma_m + kArm_m * kArm_m * kSigma_rad * kSigma_rad, -kArm_m * kSigma_rad * kSigma_rad,
+      -kArm_m * kSigma_rad * kSigma_rad, kSigma_rad * kSigma_rad;
+  const Responsibilities r = AssessMixture({kOff_m - kArm_m * kTurn_rad, kTurn_rad}, covariance, options);
+  ASSERT_GT(r.any, 0.999);
+  ASSERT_LT(std::max(r.offset, r.yaw), 0.95) << "or there would be no doubt";
+  const Eigen::Vector2d information = PriorInformation(r, options);
+  EXPECT_LT(information.x(), 2 / (options.offset_tau1_m * options.offset_tau1_m) + 1e-3 / (options.offset_tau0_m * options.offset_tau0_m));
 }
 
 }  // namespace

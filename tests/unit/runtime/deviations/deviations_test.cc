@@ -99,6 +99,7 @@ JointResult EstimateOfEastWall(const AGraph& house, const WallDeviation& deviati
   w.evidence = {{deviation.offset_m, deviation.yaw_rad}, evidence};
   w.p_deviated = deviation.offset_m == 0 ? 0 : 1;
   w.observed_m2 = observed_m2;
+  w.span_m = 1;
   estimate.walls.push_back(w);
   return estimate;
 }
@@ -112,6 +113,7 @@ TEST(AssessDeviations, HardlySeenWallsAreUnobserved) {
   EXPECT_EQ(AssessDeviations(house, estimate).surfaces[9].status, SurfaceStatus::kDeviated);
   estimate.walls[0].evidence.measured = {0.015, 0};
   estimate.walls[0].deviation = {0.015, 0};  // certain, but below what counts
+  estimate.walls[0].p_deviated = 0.1;
   EXPECT_EQ(AssessDeviations(house, estimate).surfaces[9].status, SurfaceStatus::kAsPlanned);
 }
 
@@ -147,6 +149,38 @@ TEST(AssessDeviations, FewViewsAlongMoreThanABoxAreOfAWall) {
   EXPECT_EQ(AssessDeviations(house, estimate).surfaces[9].status, SurfaceStatus::kUnobserved);
   estimate.walls[0].span_m = 2.5;
   EXPECT_EQ(AssessDeviations(house, estimate).surfaces[9].status, SurfaceStatus::kDeviated);
+}
+
+TEST(AssessDeviations, AFaceFartherOffThanItIsLongIsNotKnownAgain) {
+  const AGraph house = test::MakeHouse();
+  JointResult estimate = EstimateOfEastWall(house, {0.4, 0}, Eigen::Matrix2d::Identity() * 1e-6, 0.8);
+  estimate.walls[0].span_m = 0.35;
+  EXPECT_EQ(AssessDeviations(house, estimate).surfaces[9].status, SurfaceStatus::kUnobserved);
+  estimate.walls[0].span_m = 0.5;
+  EXPECT_EQ(AssessDeviations(house, estimate).surfaces[9].status, SurfaceStatus::kDeviated);
+}
+
+// Seen at an end alone, 4 m from the middle: off by 10 cm there, and by who knows how much in the middle.
+TEST(AssessDeviations, AWallThatIsPlainlyOffWhereItWasSeenDeviates) {
+  const AGraph house = test::MakeHouse();
+  const auto status = [&house](double off_m) {
+    constexpr double kArm_m = 4, kSigma_m = 0.01, kSigma_rad = 0.05;
+    Eigen::Matrix2d evidence;  // of the middle, given the end
+    evidence << kSigma_m * kSigma_m + kArm_m * kArm_m * kSigma_rad * kSigma_rad, -kArm_m * kSigma_rad * kSigma_rad,
+        -kArm_m * kSigma_rad * kSigma_rad, kSigma_rad * kSigma_rad;
+    return AssessDeviations(house, EstimateOfEastWall(house, {off_m, 0}, evidence, 2)).surfaces[9].status;
+  };
+  EXPECT_EQ(status(0.1), SurfaceStatus::kDeviated);
+  EXPECT_EQ(status(0.02), SurfaceStatus::kUnobserved);
+}
+
+TEST(AssessDeviations, AWallThatMoreLikelyDeviatesIsNotAsPlanned) {
+  const AGraph house = test::MakeHouse();
+  JointResult estimate = EstimateOfEastWall(house, {0.015, 0}, Eigen::Matrix2d::Identity() * 1e-6, 3);
+  estimate.walls[0].p_deviated = 0.7;
+  EXPECT_EQ(AssessDeviations(house, estimate).surfaces[9].status, SurfaceStatus::kUnobserved);
+  estimate.walls[0].p_deviated = 0.3;
+  EXPECT_EQ(AssessDeviations(house, estimate).surfaces[9].status, SurfaceStatus::kAsPlanned);
 }
 
 TEST(AssessDeviations, AWallThatOneInTwentyTimesStandsAsPlannedIsNotReported) {

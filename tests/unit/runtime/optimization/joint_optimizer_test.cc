@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "runtime/optimization/seen_walls.h"
 #include "tests/support/house.h"
 #include "tests/support/synthetic_sgraph.h"
 
@@ -192,6 +193,29 @@ TEST(OptimizeJointly, WhatWasSeenOfASideIsCountedForEachOfItsFaces) {
   EXPECT_NEAR(b.seen[1].num_points / b.num_points, 2.0 / 3, 0.05);
 }
 
+// The plan has one part of C's east side in a storey half a floor higher, or in one above.
+TEST(OptimizeJointly, WhatWasSeenOfASideIsCountedAtItsHeight) {
+  const AGraph house = test::MakeHouse();
+  const Solved s = Solve(house, {});
+  const auto num_seen = [&](double higher_m) {
+    AGraph parted = house;
+    parted.surfaces[9].end = house.surfaces[9].midpoint();
+    Surface other = house.surfaces[9];
+    other.start = house.surfaces[9].midpoint();
+    other.z_min_m += higher_m;
+    other.z_max_m += higher_m;
+    other.storey = StoreyId(house.surfaces[9].storey.index() + 1);
+    parted.surfaces.push_back(other);
+    std::vector<WallEstimate> walls = s.result.walls;
+    walls[kEast].seen.clear();
+    CountSeen(s.drive.map, parted, WallFrames(parted), s.matches, s.result.T_plan_map, walls);
+    EXPECT_EQ(walls[kEast].span_m > 0.8 * house.surfaces[9].length_m(), walls[kEast].seen.size() > 1);
+    return walls[kEast].seen.size();
+  };
+  EXPECT_EQ(num_seen(0.6), 2u);
+  EXPECT_EQ(num_seen(2.2), 1u);
+}
+
 TEST(OptimizeJointly, TheSpanOfAWallEndsWithItsFace) {
   AGraph house = test::MakeHouse();
   Solved s = Solve(house, {});
@@ -205,6 +229,66 @@ TEST(OptimizeJointly, TheSpanOfAWallEndsWithItsFace) {
   }
   const JointResult longer = OptimizeJointly(s.drive.map, house, s.matches, s.result.T_plan_map);
   EXPECT_NEAR(longer.walls[kEast].span_m, length_m, 0.05);
+}
+
+// Each patch has a square metre and two beyond either end as well.
+TEST(OptimizeJointly, WhatGoesOnBeyondAWallIsNotCountedAsSeenOfIt) {
+  const AGraph house = test::MakeHouse();
+  Solved s = Solve(house, {});
+  const WallEstimate before = s.result.walls[kEast];
+  for (MapSurface& patch : s.drive.map.surfaces) {
+    if (patch.kind != SurfaceKind::kWall) continue;
+    const Eigen::Vector2d on = 2 * (patch.end - patch.start).normalized();
+    const auto length_m = static_cast<float>(patch.length_m());
+    patch.start -= on;
+    patch.end += on;
+    for (Eigen::Vector2f& cell : patch.cells) cell.x() += 2;
+    const size_t num = patch.cells.size();
+    for (float z = 0.05f; z < 2; z += 0.1f) {
+      for (float x = 0.05f; x < 1; x += 0.1f) {
+        patch.cells.emplace_back(x, z);
+        patch.cells.emplace_back(length_m + 3 + x, z);
+      }
+    }
+    const double more = static_cast<double>(patch.cells.size()) / static_cast<double>(num);
+    patch.area_m2 *= more;
+    patch.num_points *= more;
+  }
+  const WallEstimate after = OptimizeJointly(s.drive.map, house, s.matches, s.result.T_plan_map).walls[kEast];
+  EXPECT_NEAR(after.observed_m2, before.observed_m2, 0.05 * before.observed_m2);
+  EXPECT_NEAR(after.num_points, before.num_points, 0.05 * before.num_points);
+}
+
+// It meets the next wall as much later.
+TEST(OptimizeJointly, AWallThatIsOffMayBeAsMuchLonger) {
+  const AGraph house = test::MakeHouse();
+  const Solved s = Solve(house, {});
+  AGraph shorter = house;
+  Surface& face = shorter.surfaces[9];
+  face.end += 1.5 * (face.start - face.end).normalized();
+  const auto seen_m2 = [&](double offset_m) {
+    std::vector<WallEstimate> walls = s.result.walls;
+    for (WallEstimate& wall : walls) wall.observed_m2 = 0;
+    walls[kEast].deviation = {offset_m, 0};
+    CountSeen(s.drive.map, shorter, WallFrames(shorter), s.matches, s.result.T_plan_map, walls);
+    return walls[kEast].observed_m2;
+  };
+  EXPECT_LT(seen_m2(0), 0.85 * s.result.walls[kEast].observed_m2);
+  EXPECT_LT(seen_m2(0), seen_m2(0.5));
+  EXPECT_NEAR(seen_m2(-1.6), s.result.walls[kEast].observed_m2, 0.01);
+}
+
+TEST(OptimizeJointly, APatchThatGoesOnBeyondItsFaceTellsLessOfItsTurn) {
+  const AGraph house = test::MakeHouse();
+  Solved s = Solve(house, {});
+  const double all = s.result.walls[kEast].evidence.covariance(1, 1);
+  for (Match& m : s.matches) {
+    if (m.plan_surface.valid() && house.surfaces[m.plan_surface.index()].wall == WallId(kEast)) m.beside_ratio = 0.2;
+  }
+  const JointResult partly = OptimizeJointly(s.drive.map, house, s.matches, s.result.T_plan_map);
+  EXPECT_GT(partly.walls[kEast].evidence.covariance(1, 1), 4 * all);
+  EXPECT_NEAR(partly.walls[kNorth].evidence.covariance(1, 1), s.result.walls[kNorth].evidence.covariance(1, 1),
+              0.3 * s.result.walls[kNorth].evidence.covariance(1, 1));
 }
 
 TEST(OptimizeJointly, TwoSigmaCovers) {

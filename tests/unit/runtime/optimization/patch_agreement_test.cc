@@ -80,11 +80,24 @@ TEST(FindDisagreements, APatchThatLeansMakesItsWallUnsure) {
   EXPECT_LT(found.begin()->second.mean.y(), 1.8 * kDeg);
 }
 
-TEST(FindDisagreements, APatchThatTheSolveHasLetGoOfIsNotAsked) {
+// An odd thing or two say nothing; half of what was seen may as well be the wall.
+TEST(FindDisagreements, WhatTheSolveHasLetGoOfCountsIfItIsMuchOfTheWall) {
+  constexpr double kOff_m = 0.4;
   House house;
   ASSERT_GE(house.of_middle.size(), 2u);
-  house.Lean(house.of_middle.front(), 0, 0.4);
+  const uint32_t odd = house.of_middle.front();
+  house.Lean(odd, 0, kOff_m);
+  double others_m2 = 0;
+  for (const uint32_t i : house.of_middle) others_m2 += i == odd ? 0 : house.drive.map.surfaces[i].area_m2;
+
+  house.drive.map.surfaces[odd].area_m2 = 0.1 * others_m2;
   EXPECT_TRUE(house.Disagreements(Eigen::Vector3d::Zero()).empty());
+  house.drive.map.surfaces[odd].area_m2 = others_m2;
+  const auto found = house.Disagreements(Eigen::Vector3d::Zero());
+  ASSERT_EQ(found.size(), 1u);
+  ASSERT_EQ(found.begin()->first, kMiddle);
+  EXPECT_EQ(found.begin()->second.variance_ratio, 1);
+  EXPECT_NEAR(found.begin()->second.let_go(0, 0), 0.5 * kOff_m * kOff_m, 0.02);
 }
 
 }  // namespace

@@ -98,6 +98,9 @@ class Matcher {
   // Log-likelihood of each pose, on the same scale as Hypothesis::log_likelihood: for re-scoring an accepted fix against its rivals.
   [[nodiscard]] std::vector<double> Scores(const SGraph& map, std::span<const Eigen::Isometry3d> T_plan_map) const;
 
+  // The pose about `T_plan_map` at which rays (and, unless a planar laser saw them, walls) fit best; within 0.9 m and 9 degrees.
+  [[nodiscard]] Eigen::Isometry3d Refined(const SGraph& map, const Eigen::Isometry3d& T_plan_map) const;
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;

@@ -44,11 +44,7 @@ void SetSigmas(const Candidate& candidate, bool rays_vouch, const MatcherOptions
 Hypothesis ToHypothesis(const Candidate& candidate, const MapView& map, const Eigen::Vector3d& origin, bool rays_vouch,
                         const MatcherOptions& options) {
   Hypothesis h;
-  const PlanarPose& pose = candidate.fit.pose;
-  const Eigen::Matrix2d R = pose.rotation();
-  h.T_plan_map.linear().topLeftCorner<2, 2>() = R;
-  h.T_plan_map.translation().head<2>() = origin.head<2>() + pose.t_m - R * map.center_m;
-  h.T_plan_map.translation().z() = origin.z() + pose.z_m;
+  h.T_plan_map = PoseOfMap(candidate.fit.pose, map, origin);
   h.storey = candidate.storey;
   h.log_likelihood = candidate.score();
   h.consistent_planes = candidate.fit.consistent_planes;

@@ -256,15 +256,14 @@ MatchResult Matcher::Match(const SGraph& map, const StartHint& hint) const {
   WrongPlans wrong;
   if (!finalists.empty()) {
     Candidate& best = finalists.front();
-    if (!WallsTellScale(best.fit, search.options)) wrong.scaled = search.ScaledLikelihood(view, best);
+    if (!view.planar && !WallsTellScale(best.fit, search.options)) wrong.scaled = search.ScaledLikelihood(view, best);
     if (best.fit.consistent_planes >= kLeastPlanes && !WallsFixPlace(best.fit, search.options)) {
       best.lead_nearby = search.LeadNearby(view, best.fit.pose);
     }
   }
   result = Decide(finalists, view, plan, search.options, wrong);
   if (result.verdict != MatchResult::Verdict::kUnique) return result;
-  // Maps of planar lasers are bent by more than that.
-  if (!wrong.scaled && !view.planar) wrong.scaled = search.ScaledLikelihood(view, finalists.front());
+  if (!wrong.scaled) wrong.scaled = search.ScaledLikelihood(view, finalists.front());
   wrong.mirrored = impl_->MirroredLikelihood(view, finalists.front().fit);
   return Decide(finalists, view, plan, search.options, wrong);
 }

@@ -41,7 +41,7 @@ struct MatcherOptions {
   double accept_max_through_ratio = 0.02;  // of the rays: may pass through walls of the plan
   int ample_more_planes = 2;               // this many more agree than are asked for: then vouch_max_through_ratio of the rays may
   // The building's size against the plan's: the walls tell it to within this with two sigmas and no farther from the plan's than so many,
-  // or the rays prefer the plan to one that is larger or smaller by as much, by vouch_lead_nats.
+  // or the rays prefer the plan to one that is larger or smaller by as much, by vouch_lead_nats. For planar lasers see SizeDoubt().
   double accept_scale_error = 0.025;
   double accept_scale_sigmas = 1.5;
   double accept_scale_bias = 0.005;   // what a lidar's ranges may be off by is no other scale

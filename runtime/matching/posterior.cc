@@ -162,6 +162,13 @@ std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, int 
   return {};
 }
 
+std::string SizeDoubt(const Candidate& candidate, const std::optional<double>& scaled, const MatcherOptions& options) {
+  const double sigmas = std::max(0.0, options.accept_scale_error - std::abs(candidate.fit.scale_error)) / candidate.fit.sigma_scale;
+  const double for_other_size = scaled ? std::max(0.0, *scaled - candidate.rays.log_likelihood) : 0;
+  const double lead = 0.5 * sigmas * sigmas - for_other_size;
+  return lead < options.accept_margin_nats ? fmt::format("a plan of another size fits about as well ({:+.1f} nats)", -lead) : std::string();
+}
+
 MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, const AGraph& plan, const MatcherOptions& options,
                    const WrongPlans& wrong) {
   MatchResult result;
@@ -188,8 +195,9 @@ MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, con
   }
   const auto rivals = std::count_if(sorted.begin() + 1, sorted.begin() + static_cast<ptrdiff_t>(n),
                                     [&](const Candidate& c) { return IsRival(sorted.front(), c, options); });
-  result.reason =
-      Doubt(sorted.front(), best, RequiredPlanes(plan.rooms.size(), sorted.front().log_prior, options), by_rays, wrong.scaled, options);
+  const int required_planes = RequiredPlanes(plan.rooms.size(), sorted.front().log_prior, options);
+  result.reason = Doubt(sorted.front(), best, required_planes, by_rays, map.planar ? std::nullopt : wrong.scaled, options);
+  if (map.planar && result.reason.empty()) result.reason = SizeDoubt(sorted.front(), wrong.scaled, options);
   if (!result.reason.empty()) {
     if (rivals > 0) result.reason += "; " + OthersAlike(rivals);
     return result;

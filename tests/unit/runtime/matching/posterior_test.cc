@@ -212,6 +212,36 @@ TEST(Doubt, RaysThroughWallsAreForgivenWhereMorePlanesAgreeThanAreAskedFor) {
   EXPECT_NE(doubt(), "");
 }
 
+TEST(SizeDoubt, WallsMustTellTheSizeByMoreThanRaysAreAgainstIt) {
+  const MatcherOptions options;
+  Candidate c = Good(100);
+  c.fit.sigma_scale = options.accept_scale_error / 6;  // 18 nats
+  EXPECT_EQ(SizeDoubt(c, std::nullopt, options), "");
+  EXPECT_EQ(SizeDoubt(c, 105.0, options), "");
+  EXPECT_NE(SizeDoubt(c, 110.0, options), "") << "the rays prefer another size";
+  c.fit.sigma_scale = options.accept_scale_error / 4;  // 8 nats
+  EXPECT_NE(SizeDoubt(c, 20.0, options), "") << "a bent map's rays do not tell the size";
+  c.fit.sigma_scale = options.accept_scale_error / 6;
+  c.fit.scale_error = -options.accept_scale_error / 2;
+  EXPECT_NE(SizeDoubt(c, std::nullopt, options), "");
+  c.fit.scale_error = 2 * options.accept_scale_error;
+  EXPECT_NE(SizeDoubt(c, std::nullopt, options), "");
+}
+
+TEST(Decide, AsksAPlanarMapForItsSize) {
+  Candidate c = Good(100);
+  c.fit.sigma_scale = 0.007;  // enough for another map
+  MapView planar;
+  planar.planar = true;
+  EXPECT_EQ(Decide({c}, MapView(), AGraph(), MatcherOptions()).verdict, Verdict::kUnique);
+  EXPECT_EQ(Decide({c}, planar, AGraph(), MatcherOptions()).verdict, Verdict::kSearching);
+  c.fit.sigma_scale = 0.002;
+  EXPECT_EQ(Decide({c}, planar, AGraph(), MatcherOptions()).verdict, Verdict::kUnique);
+  WrongPlans larger;
+  larger.scaled = 140;
+  EXPECT_EQ(Decide({c}, planar, AGraph(), MatcherOptions(), larger).verdict, Verdict::kUnique) << "the walls tell it by more";
+}
+
 TEST(StandsAlone, OnlyWhereAllOtherPlacesAreNoBetterThanOutside) {
   const MatcherOptions options;
   EXPECT_TRUE(StandsAlone({Good(options.vouch_lead_nats), Good(0, 5), Good(-80, 9)}, 0, options));

@@ -132,7 +132,7 @@ struct GraphEstimator::Impl {
     Mapper map = mapper;
     PlanEstimate before = estimate;
     if (!solve()) return false;
-    if (RayScore() < laid - options.rival_margin_nats) {
+    if (RayScore() < laid - options.matcher.accept_margin_nats) {
       mapper = std::move(map);
       estimate = std::move(before);
     }

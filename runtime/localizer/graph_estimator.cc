@@ -1,6 +1,7 @@
 #include "runtime/localizer/graph_estimator.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <utility>
 
@@ -108,10 +109,37 @@ struct GraphEstimator::Impl {
   }
 
   void SolveAll() {
-    if (!estimate.Optimize(mapper, tells_all())) return;
+    const bool solved = UnlessRaysContradict([&] { return estimate.Optimize(mapper, tells_all()); });
+    if (!solved) return;
     news = true;
     solved_all_at = num_keyframes;
   }
+
+  void SolveFinally() {
+    UnlessRaysContradict([&] {
+      estimate.OptimizeFinally(mapper);
+      return true;
+    });
+  }
+
+  // Half of the walls that a planar laser sees are furniture and its map is bent, so that walls alone would lay the plan now here, now
+  // there: its rays lay the map anew as it grows, and what a solve makes of that is taken back where they clearly liked it better before.
+  template <class Solve>
+  bool UnlessRaysContradict(const Solve& solve) {
+    if (!mapper.graph().planar) return solve();
+    estimate.Lay(matcher.Refined(mapper.graph(), estimate.T_plan_map()));
+    const double laid = RayScore();
+    Mapper map = mapper;
+    PlanEstimate before = estimate;
+    if (!solve()) return false;
+    if (RayScore() < laid - options.matcher.accept_margin_nats) {
+      mapper = std::move(map);
+      estimate = std::move(before);
+    }
+    return true;
+  }
+
+  [[nodiscard]] double RayScore() const { return matcher.Scores(mapper.graph(), std::array{estimate.T_plan_map()}).front(); }
 
   // Without a plan the map can at least be made consistent by itself.
   void Polish() {
@@ -202,7 +230,7 @@ struct GraphEstimator::Impl {
   // Keeps what a map that lies in the plan has to say, before it is given up.
   void Archive() {
     mapper.Flush();
-    estimate.OptimizeFinally(mapper);
+    SolveFinally();
     const Trajectory poses = SmoothedPoses();
     earlier_poses.insert(earlier_poses.end(), poses.begin(), poses.end());
     DeviationReport report = Deviations(estimate);
@@ -230,9 +258,9 @@ struct GraphEstimator::Impl {
     const bool requested = update_requested.exchange(false), changed = std::exchange(news, false) || verdict != told_verdict;
     if (!options.on_update || !(requested || (tells_all() && changed))) return;
     told_verdict = verdict;
-    // Walls off, missing and unplanned wait for a request or the end, when all is judged with covariances.
+    // Walls off, missing and unplanned wait for a request or the end, when all is judged with covariances; by a planar laser none are.
     std::optional<PlanEstimate> judged;
-    if (requested && placed()) {
+    if (requested && placed() && !mapper.graph().planar) {
       Mapper map = mapper;
       map.Flush();
       judged.emplace(estimate).OptimizeFinally(map);
@@ -298,7 +326,7 @@ void GraphEstimator::RequestUpdate() { impl_->update_requested = true; }
 void GraphEstimator::Finish() {
   impl_->mapper.Flush();
   if (impl_->placed()) {
-    impl_->estimate.OptimizeFinally(impl_->mapper);
+    impl_->SolveFinally();
   } else {
     impl_->Polish();
   }

@@ -51,8 +51,8 @@ struct GraphState {
   // From the first fix on; when lost, so that poses go on from where they were.
   std::optional<Eigen::Isometry3d> T_plan_odom;
   std::shared_ptr<const MatchTry> last_try;  // the newest in this map; null before the first
-  bool solve_held = false;  // the scan closed a keyframe, which was mapped and neither matched nor solved
-  std::vector<StageTime> timing;  // of this scan
+  bool solve_held = false;                   // the scan closed a keyframe, which was mapped and neither matched nor solved
+  std::vector<StageTime> timing;             // of this scan
 };
 
 // Deterministic, whatever threads the matcher uses.

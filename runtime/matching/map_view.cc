@@ -196,6 +196,24 @@ MapView ViewMap(const SGraph& map, const MatcherOptions& options) {
   return view;
 }
 
+Eigen::Isometry3d PoseOfMap(const PlanarPose& pose, const MapView& view, const Eigen::Vector3d& origin) {
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  const Eigen::Matrix2d R = pose.rotation();
+  T.linear().topLeftCorner<2, 2>() = R;
+  T.translation().head<2>() = origin.head<2>() + pose.t_m - R * view.center_m;
+  T.translation().z() = origin.z() + pose.z_m;
+  return T;
+}
+
+PlanarPose PoseOfView(const Eigen::Isometry3d& T_plan_map, const MapView& view, const Eigen::Vector3d& origin) {
+  PlanarPose pose;
+  pose.yaw_rad = std::atan2(T_plan_map.linear()(1, 0), T_plan_map.linear()(0, 0));
+  const Eigen::Vector3d t = T_plan_map.translation() - origin;
+  pose.t_m = t.head<2>() + pose.rotation() * view.center_m;
+  pose.z_m = t.z();
+  return pose;
+}
+
 MapView Scaled(MapView view, double scale) {
   for (MapWall& wall : view.walls) {
     wall.start *= scale;

@@ -1,7 +1,7 @@
 // The map as matching needs it: its walls as segments, its floor, and a fixed sample of its laser rays.
 #pragma once
 
-#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <optional>
 #include <span>
 #include <vector>
@@ -9,6 +9,7 @@
 #include "runtime/mapping/sgraph.h"
 #include "runtime/matching/map_walls.h"
 #include "runtime/matching/matcher.h"
+#include "runtime/matching/planar_pose.h"
 
 namespace plumb::runtime {
 
@@ -45,6 +46,10 @@ struct MapView {
 
 // Deterministic. Linear in points, plus rays x walls.
 [[nodiscard]] MapView ViewMap(const SGraph& map, const MatcherOptions& options);
+
+// T_plan_map of a view's pose in the plan, AGraph::origin and the view's centre put back; and the pose of T_plan_map.
+[[nodiscard]] Eigen::Isometry3d PoseOfMap(const PlanarPose& pose, const MapView& view, const Eigen::Vector3d& origin);
+[[nodiscard]] PlanarPose PoseOfView(const Eigen::Isometry3d& T_plan_map, const MapView& view, const Eigen::Vector3d& origin);
 
 // The view of a building `scale` times as large in x and y, about the view's middle.
 [[nodiscard]] MapView Scaled(MapView view, double scale);

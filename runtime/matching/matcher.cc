@@ -256,15 +256,14 @@ MatchResult Matcher::Match(const SGraph& map, const StartHint& hint) const {
   WrongPlans wrong;
   if (!finalists.empty()) {
     Candidate& best = finalists.front();
-    if (!WallsTellScale(best.fit, search.options)) wrong.scaled = search.ScaledLikelihood(view, best);
+    if (!view.planar && !WallsTellScale(best.fit, search.options)) wrong.scaled = search.ScaledLikelihood(view, best);
     if (best.fit.consistent_planes >= kLeastPlanes && !WallsFixPlace(best.fit, search.options)) {
       best.lead_nearby = search.LeadNearby(view, best.fit.pose);
     }
   }
   result = Decide(finalists, view, plan, search.options, wrong);
   if (result.verdict != MatchResult::Verdict::kUnique) return result;
-  // Maps of planar lasers are bent by more than that.
-  if (!wrong.scaled && !view.planar) wrong.scaled = search.ScaledLikelihood(view, finalists.front());
+  if (!wrong.scaled) wrong.scaled = search.ScaledLikelihood(view, finalists.front());
   wrong.mirrored = impl_->MirroredLikelihood(view, finalists.front().fit);
   return Decide(finalists, view, plan, search.options, wrong);
 }
@@ -278,14 +277,18 @@ std::vector<double> Matcher::Scores(const SGraph& map, std::span<const Eigen::Is
   const MapView view = ViewMap(map, search.options);
   std::vector<double> scores;
   for (const Eigen::Isometry3d& T : T_plan_map) {
-    PlanarPose pose;
-    pose.yaw_rad = std::atan2(T.linear()(1, 0), T.linear()(0, 0));
-    const Eigen::Vector3d t = T.translation() - search.plan.plan().origin;
-    pose.t_m = t.head<2>() + pose.rotation() * view.center_m;
-    pose.z_m = t.z();
+    const PlanarPose pose = PoseOfView(T, view, search.plan.plan().origin);
     scores.push_back(JudgeRays(search.plan, view, pose, search.options).log_likelihood);
   }
   return scores;
+}
+
+Eigen::Isometry3d Matcher::Refined(const SGraph& map, const Eigen::Isometry3d& T_plan_map) const {
+  const PoseSearch& search = impl_->search;
+  const Eigen::Vector3d& origin = search.plan.plan().origin;
+  const MapView view = ViewMap(map, search.options);
+  const WallFit fit = AssessOnWalls(search.plan, view, PoseOfView(T_plan_map, view, origin));
+  return PoseOfMap(RefineOnRays(search.plan, view, fit, search.options), view, origin);
 }
 
 }  // namespace plumb::runtime

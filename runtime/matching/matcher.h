@@ -41,7 +41,7 @@ struct MatcherOptions {
   double accept_max_through_ratio = 0.02;  // of the rays: may pass through walls of the plan
   int ample_more_planes = 2;               // this many more agree than are asked for: then vouch_max_through_ratio of the rays may
   // The building's size against the plan's: the walls tell it to within this with two sigmas and no farther from the plan's than so many,
-  // or the rays prefer the plan to one that is larger or smaller by as much, by vouch_lead_nats.
+  // or the rays prefer the plan to one that is larger or smaller by as much, by vouch_lead_nats. For planar lasers see SizeDoubt().
   double accept_scale_error = 0.025;
   double accept_scale_sigmas = 1.5;
   double accept_scale_bias = 0.005;   // what a lidar's ranges may be off by is no other scale
@@ -50,7 +50,7 @@ struct MatcherOptions {
   // on what the plan has there, and the place leads every rival, the plan's mirror image and "outside" by this many nats, and by this much
   // of its own log-likelihood unless nearly all rays end where they should. Furniture in the way, where half of the rays of an office may
   // end, says nothing: only those rays count that nothing stops in front, and the lead must be the longer, up to twice, the more are
-  // stopped.
+  // stopped, unless accept_min_planes agree.
   double vouch_explained_ratio = 0.65;
   double vouch_lead_nats = 30;
   double vouch_lead_ratio = 0.3;
@@ -97,6 +97,9 @@ class Matcher {
 
   // Log-likelihood of each pose, on the same scale as Hypothesis::log_likelihood: for re-scoring an accepted fix against its rivals.
   [[nodiscard]] std::vector<double> Scores(const SGraph& map, std::span<const Eigen::Isometry3d> T_plan_map) const;
+
+  // The pose about `T_plan_map` at which rays (and, unless a planar laser saw them, walls) fit best; within 0.9 m and 9 degrees.
+  [[nodiscard]] Eigen::Isometry3d Refined(const SGraph& map, const Eigen::Isometry3d& T_plan_map) const;
 
  private:
   struct Impl;

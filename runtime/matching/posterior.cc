@@ -44,11 +44,7 @@ void SetSigmas(const Candidate& candidate, bool rays_vouch, const MatcherOptions
 Hypothesis ToHypothesis(const Candidate& candidate, const MapView& map, const Eigen::Vector3d& origin, bool rays_vouch,
                         const MatcherOptions& options) {
   Hypothesis h;
-  const PlanarPose& pose = candidate.fit.pose;
-  const Eigen::Matrix2d R = pose.rotation();
-  h.T_plan_map.linear().topLeftCorner<2, 2>() = R;
-  h.T_plan_map.translation().head<2>() = origin.head<2>() + pose.t_m - R * map.center_m;
-  h.T_plan_map.translation().z() = origin.z() + pose.z_m;
+  h.T_plan_map = PoseOfMap(candidate.fit.pose, map, origin);
   h.storey = candidate.storey;
   h.log_likelihood = candidate.score();
   h.consistent_planes = candidate.fit.consistent_planes;
@@ -108,8 +104,9 @@ bool RaysVouch(const std::vector<Candidate>& sorted, double mirrored, const Matc
   double rival = std::max(0.0, mirrored);
   for (size_t i = 1; i < sorted.size(); ++i) rival = std::max(rival, sorted[i].rays.log_likelihood);
   const double lead = best.log_likelihood - rival;
-  // Rays that furniture stops are not charged, so that foreign plans rise where there are many.
-  const double least_nats = options.vouch_lead_nats * std::clamp(4 * best.in_front_ratio, 1.0, 2.0);
+  // Rays that furniture stops are not charged, so that foreign plans rise where there are many; but few of their walls agree there.
+  const bool many_agree = sorted.front().fit.consistent_planes >= options.accept_min_planes;
+  const double least_nats = options.vouch_lead_nats * (many_agree ? 1.0 : std::clamp(4 * best.in_front_ratio, 1.0, 2.0));
   return best.explained_ratio >= options.vouch_explained_ratio * counted_ratio && lead >= least_nats &&
          (lead >= options.vouch_lead_ratio * best.log_likelihood || best.explained_ratio >= options.vouch_nearly_all_ratio);
 }
@@ -166,6 +163,13 @@ std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, int 
   return {};
 }
 
+std::string SizeDoubt(const Candidate& candidate, const std::optional<double>& scaled, const MatcherOptions& options) {
+  const double sigmas = std::max(0.0, options.accept_scale_error - std::abs(candidate.fit.scale_error)) / candidate.fit.sigma_scale;
+  const double for_other_size = scaled ? std::max(0.0, *scaled - candidate.rays.log_likelihood) : 0;
+  const double lead = 0.5 * sigmas * sigmas - for_other_size;
+  return lead < options.accept_margin_nats ? fmt::format("a plan of another size fits about as well ({:+.1f} nats)", -lead) : std::string();
+}
+
 MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, const AGraph& plan, const MatcherOptions& options,
                    const WrongPlans& wrong) {
   MatchResult result;
@@ -192,8 +196,9 @@ MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, con
   }
   const auto rivals = std::count_if(sorted.begin() + 1, sorted.begin() + static_cast<ptrdiff_t>(n),
                                     [&](const Candidate& c) { return IsRival(sorted.front(), c, options); });
-  result.reason =
-      Doubt(sorted.front(), best, RequiredPlanes(plan.rooms.size(), sorted.front().log_prior, options), by_rays, wrong.scaled, options);
+  const int required_planes = RequiredPlanes(plan.rooms.size(), sorted.front().log_prior, options);
+  result.reason = Doubt(sorted.front(), best, required_planes, by_rays, map.planar ? std::nullopt : wrong.scaled, options);
+  if (map.planar && result.reason.empty()) result.reason = SizeDoubt(sorted.front(), wrong.scaled, options);
   if (!result.reason.empty()) {
     if (rivals > 0) result.reason += "; " + OthersAlike(rivals);
     return result;

@@ -64,4 +64,8 @@ struct RayVerdict {
 [[nodiscard]] std::string Doubt(const Candidate& candidate, const Hypothesis& hypothesis, int required_planes, const RayVerdict& by_rays,
                                 const std::optional<double>& scaled, const MatcherOptions& options);
 
+// The same for the size of a map of a planar laser, which is bent: plans of other sizes may suit its rays better, so that their word counts
+// against the plan and not for it. Its walls must tell the size by accept_margin_nats more than that.
+[[nodiscard]] std::string SizeDoubt(const Candidate& candidate, const std::optional<double>& scaled, const MatcherOptions& options);
+
 }  // namespace plumb::runtime

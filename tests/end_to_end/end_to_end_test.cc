@@ -106,6 +106,18 @@ TEST_F(EndToEnd, FindsAPlanarLaserInFurnishedOffices) {
   for (const auto& surface : folder_->Json("planar/deviations.json").at("surfaces")) EXPECT_EQ(surface.at("status"), "unobserved");
 }
 
+// The walls of a corridor, half of them hidden, would lay the plan 40 cm aside.
+TEST_F(EndToEnd, KeepsAPlanarLaserWhereItWasFound) {
+  const std::string recording = PLUMB_SOURCE_DIR "/../shared/data/lidar/fr079";
+  if (!fs::exists(recording + "/truth.tum")) GTEST_SKIP() << "the recording fr079 is not there";
+  ASSERT_NE(folder_->Plumb("compile '" + recording + "/asbuilt.dxf' -q -o corridor.agraph"), 2);
+  EXPECT_EQ(folder_->Plumb("localize corridor.agraph '" + recording + "' --start 104.676 --max-duration 60 -q -o corridor/"), 0);
+  EXPECT_EQ(folder_->Plumb("evaluate corridor/ --truth '" + recording +
+                           "' --json corridor.json --require-localized-within 30 --require-ate 0.10"),
+            0);
+  EXPECT_EQ(folder_->Json("corridor.json").at("wrong_fixes"), 0);
+}
+
 TEST_F(EndToEnd, RefusesBadInputWithStatusTwo) {
   EXPECT_EQ(folder_->Plumb("localize rec/odometry.tum rec/ -o other/ 2> error.txt"), 2);
   EXPECT_EQ(folder_->Plumb("localize plan.agraph truth/ -o other/ 2> error.txt"), 2);

@@ -129,6 +129,18 @@ TEST(Matcher, ScoresAreOnTheScaleOfTheHypotheses) {
   for (size_t i = 0; i < result.hypotheses.size(); ++i) EXPECT_NEAR(scores[2 + i], result.hypotheses[i].log_likelihood, 1e-6);
 }
 
+TEST(Matcher, RefinesAPoseThatIsALittleOff) {
+  const AGraph house = test::MakeHouse();
+  const Matcher matcher(house);
+  const Eigen::Isometry3d truth = UprightPose(33, 5, 6, 0.2);
+  const SGraph map = MakeSyntheticMap(house, OnTour(test::kFromA, truth));
+  const Eigen::Isometry3d refined = matcher.Refined(map, UprightPose(2, 0.25, -0.1, 0) * truth);
+  const test::PoseError error = ErrorOf(refined, truth, {2.5, 1.7});
+  EXPECT_LT(error.xy_m, 0.05);
+  EXPECT_LT(test::Degrees(error.yaw_rad), 0.5);
+  EXPECT_NEAR(error.z_m, 0, 1e-9);
+}
+
 TEST(Matcher, KeepsPlansFarFromTheirOrigin) {
   AGraph house = test::MakeHouse();
   const Eigen::Vector3d far(4e5, 5e6, 300);

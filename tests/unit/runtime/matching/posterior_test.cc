@@ -182,10 +182,14 @@ TEST(RaysVouch, FurnitureCountsNeitherWay) {
 TEST(RaysVouch, AmongFurnitureOnlyFurtherAhead) {
   const MatcherOptions options;
   Candidate c = Good(1.5 * options.vouch_lead_nats);
+  c.fit.consistent_planes = options.accept_min_planes - 1;
   c.rays.in_front_ratio = 0.2;
   EXPECT_TRUE(RaysVouch({c}, 0, options));
   c.rays.in_front_ratio = 0.5;
   EXPECT_FALSE(RaysVouch({c}, 0, options));
+  c.fit.consistent_planes = options.accept_min_planes;
+  EXPECT_TRUE(RaysVouch({c}, 0, options)) << "as many walls agree as suffice elsewhere";
+  c.fit.consistent_planes = options.accept_min_planes - 1;
   c.rays.log_likelihood = 2.1 * options.vouch_lead_nats;
   EXPECT_TRUE(RaysVouch({c}, 0, options));
 }
@@ -210,6 +214,36 @@ TEST(Doubt, RaysThroughWallsAreForgivenWhereMorePlanesAgreeThanAreAskedFor) {
   c.fit.consistent_ratio = 0.9;
   c.rays.through_ratio = 1.1 * options.vouch_max_through_ratio;
   EXPECT_NE(doubt(), "");
+}
+
+TEST(SizeDoubt, WallsMustTellTheSizeByMoreThanRaysAreAgainstIt) {
+  const MatcherOptions options;
+  Candidate c = Good(100);
+  c.fit.sigma_scale = options.accept_scale_error / 6;  // 18 nats
+  EXPECT_EQ(SizeDoubt(c, std::nullopt, options), "");
+  EXPECT_EQ(SizeDoubt(c, 105.0, options), "");
+  EXPECT_NE(SizeDoubt(c, 110.0, options), "") << "the rays prefer another size";
+  c.fit.sigma_scale = options.accept_scale_error / 4;  // 8 nats
+  EXPECT_NE(SizeDoubt(c, 20.0, options), "") << "a bent map's rays do not tell the size";
+  c.fit.sigma_scale = options.accept_scale_error / 6;
+  c.fit.scale_error = -options.accept_scale_error / 2;
+  EXPECT_NE(SizeDoubt(c, std::nullopt, options), "");
+  c.fit.scale_error = 2 * options.accept_scale_error;
+  EXPECT_NE(SizeDoubt(c, std::nullopt, options), "");
+}
+
+TEST(Decide, AsksAPlanarMapForItsSize) {
+  Candidate c = Good(100);
+  c.fit.sigma_scale = 0.007;  // enough for another map
+  MapView planar;
+  planar.planar = true;
+  EXPECT_EQ(Decide({c}, MapView(), AGraph(), MatcherOptions()).verdict, Verdict::kUnique);
+  EXPECT_EQ(Decide({c}, planar, AGraph(), MatcherOptions()).verdict, Verdict::kSearching);
+  c.fit.sigma_scale = 0.002;
+  EXPECT_EQ(Decide({c}, planar, AGraph(), MatcherOptions()).verdict, Verdict::kUnique);
+  WrongPlans larger;
+  larger.scaled = 140;
+  EXPECT_EQ(Decide({c}, planar, AGraph(), MatcherOptions(), larger).verdict, Verdict::kUnique) << "the walls tell it by more";
 }
 
 TEST(StandsAlone, OnlyWhereAllOtherPlacesAreNoBetterThanOutside) {

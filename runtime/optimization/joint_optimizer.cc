@@ -88,9 +88,9 @@ class Optimizer {
     std::optional<JointProblem> problem(std::in_place, map_, plan_, frames_, matches_, fitted_, state_);
     const int rounds = schedule_.alternate ? options_.em_rounds : 1;
     for (int round = 0; round < rounds; ++round) {
-      if (round > 0 && schedule_.consensus) Reseed(false);
+      const bool moved = round > 0 && schedule_.consensus && Reseed(false);
       const double change = ExpectationStep(*problem);
-      if (round > 1 && change < kSettled) break;
+      if (round > 1 && !moved && change < kSettled) break;  // a seed is no solution
       result.em_rounds = round + 1;
       if (Solve(*problem, result)) continue;
       if (round == 0) return result;
@@ -141,13 +141,13 @@ class Optimizer {
   }
   void Measure() { measurements_ = Measured(fitted_); }
 
-  // Wall-level consensus on where the plan lies. Between rounds it only steps in when another place is clearly better.
-  void Reseed(bool always) {
+  // Wall-level consensus on where the plan lies. Between rounds it only steps in when another place is clearly better: then true.
+  bool Reseed(bool always) {
     const PlaceSeed seed = SeedPlace(measurements_, frames_, Place(), options_);
     const Eigen::Isometry3d moved = seed.T_plan_map * Place().inverse();
     const Eigen::Vector3d center = Place() * Eigen::Vector3d(state_.poses.back()[4], state_.poses.back()[5], state_.poses.back()[6]);
     constexpr double kElsewhere_m = 0.03;
-    if (!always && (moved * center - center).norm() < kElsewhere_m) return;
+    if (!always && (moved * center - center).norm() < kElsewhere_m) return false;
     state_.place = PlaceBlock(seed.T_plan_map);
     state_.bias_m = seed.bias_m;
     Measure();
@@ -155,6 +155,7 @@ class Optimizer {
       const Eigen::Vector2d e = measurements_[w].At(state_.bias_m);
       state_.walls[w] = {e.x(), e.y(), 0, 0};
     }
+    return true;
   }
 
   // Which component each wall belongs to; sets the priors accordingly. Returns the largest change.

@@ -15,8 +15,7 @@ constexpr size_t kMinColumns = 5;          // of a piece
 constexpr double kMaxChi2 = 9;
 constexpr double kMinGain = 30;  // of chi square for two more parameters, at the best of many cuts
 constexpr double kMinStep_m = 0.015;
-constexpr double kMinShare = 0.05;     // of a keyframe's points: fewer on one piece are its noise beyond the cut, ...
-constexpr double kMinViewPoints = 20;  // ... and fewer than these are no view
+constexpr double kMinShare = 0.05;  // of a keyframe's points: fewer on one piece are its noise beyond the cut
 
 struct Line {
   double offset_m = 0, slope = 0;  // at along_m = 0
@@ -121,16 +120,17 @@ std::optional<TrackedSurface> CutWall(double along_m, const std::vector<Keyframe
     const Keyframe& keyframe = keyframes[o.keyframe];
     PlaneStats a, b;
     ForEachPoint(keyframe, track->patch, options, [&](const Eigen::Vector3d& p, double at_m, double) { (at_m > along_m ? b : a).Add(p); });
-    const double least = std::max(kMinViewPoints, kMinShare * (a.count() + b.count()));
-    if (a.count() >= least && b.count() >= least) {
+    const double total = a.count() + b.count();
+    const bool in_doubt = total == 0;  // its points were merged away
+    const bool centre_beyond = track->patch.Coordinates(keyframe.T_map_kf * o.stats.centroid()).x() > along_m;
+    if (in_doubt ? centre_beyond : a.count() < kMinShare * total) {
+      beyond.surface.observations.push_back(o);
+    } else if (in_doubt || b.count() < kMinShare * total) {
+      here.surface.observations.push_back(o);
+    } else {
       here.surface.observations.push_back({o.keyframe, a});
       beyond.surface.observations.push_back({o.keyframe, b});
-      continue;
     }
-    // Of one piece, or of a keyframe whose points are gone.
-    const bool centre_beyond = track->patch.Coordinates(keyframe.T_map_kf * o.stats.centroid()).x() > along_m;
-    const bool is_beyond = a.count() == b.count() ? centre_beyond : b.count() > a.count();
-    (is_beyond ? beyond : here).surface.observations.push_back(o);
   }
   if (here.surface.observations.empty() || beyond.surface.observations.empty()) return std::nullopt;
   std::vector<bool> gone = Beyond(track->patch, along_m);

@@ -148,7 +148,6 @@ struct GraphEstimator::Impl {
     std::vector<Keyframe>& keyframes = mapper.mutable_graph().keyframes;
     for (size_t i = 0; i < keyframes.size(); ++i) keyframes[i].T_map_kf = polished.T_map_kf[i];
     mapper.OnPosesChanged(true);
-    mapper.SplitWalls();
   }
 
   // Between two solves over everything, which cost more the larger the map is, only the newest keyframes are laid on it; those of a planar

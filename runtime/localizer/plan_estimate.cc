@@ -72,7 +72,6 @@ void PlanEstimate::FindOtherShapes(const SGraph& map) {
 
 void PlanEstimate::OptimizeFinally(Mapper& mapper) {
   other_shapes_.clear();
-  mapper.SplitWalls();
   Solve(mapper, true, true);
   if (matches_.empty()) return;
   changes_.presence = JudgePresence(mapper.graph(), *plan_, joint_, options_->deviations.presence);

@@ -105,7 +105,7 @@ TrackedSurface SurfaceOf(const Segment& segment, const Keyframe& keyframe) {
   s.num_points = sum.count();
   SurfacePatch patch(keyframe.id, keyframe.T_map_kf, s.plane, s.kind, sum.centroid(), segment.cell_height_m);
   for (const Eigen::Vector3f& cell : segment.cells) patch.Mark(keyframe.T_map_kf * cell.cast<double>());
-  TrackedSurface tracked{std::move(s), {std::move(patch), sum, {}}};
+  TrackedSurface tracked{std::move(s), {std::move(patch), sum}};
   UpdateExtent(tracked.track, &tracked.surface);
   return tracked;
 }
@@ -214,7 +214,6 @@ void Absorb(const TrackedSurface& b, const std::vector<Keyframe>& keyframes, Map
     }
   }
   a_track->sum.Add(b.track.sum);
-  if (!a_track->cut_from) a_track->cut_from = b.track.cut_from;
   UpdatePlane(keyframes, a->plane.n, a, a_track);
   a_track->patch.MarkAll(b.track.patch);
   UpdateExtent(*a_track, a);

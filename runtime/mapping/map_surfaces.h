@@ -1,8 +1,6 @@
 // The surfaces of the S-Graph: which segment belongs to which surface, and what a surface is given its observations.
 #pragma once
 
-#include <cstdint>
-#include <optional>
 #include <vector>
 
 #include "runtime/mapping/mapper_options.h"
@@ -14,8 +12,7 @@ namespace plumb::runtime {
 // What only the mapper needs of a surface.
 struct SurfaceTrack {
   SurfacePatch patch;
-  PlaneStats sum;            // of all observations, map frame
-  std::optional<uint32_t> cut_from;  // the surface that it was once a piece of: pieces of one are never joined again
+  PlaneStats sum;  // of all observations, map frame
 };
 
 struct TrackedSurface {

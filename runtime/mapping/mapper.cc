@@ -12,7 +12,6 @@
 #include "runtime/mapping/pose_graph.h"
 #include "runtime/mapping/segmentation.h"
 #include "runtime/mapping/view_alignment.h"
-#include "runtime/mapping/wall_splitting.h"
 #include "runtime/odometry/planar/planar_scan.h"
 
 namespace plumb::runtime {
@@ -216,14 +215,10 @@ void Mapper::AddSegment(const Segment& segment, const Keyframe& keyframe) {
     return;
   }
   if (IsEcho(candidate.surface, candidate.track.patch, graph_.surfaces, tracks_, balls_)) return;
-  AddSurface(std::move(candidate));
-}
-
-void Mapper::AddSurface(TrackedSurface tracked) {
-  tracked.surface.id = static_cast<uint32_t>(graph_.surfaces.size());
-  graph_.surfaces.push_back(std::move(tracked.surface));
-  balls_.push_back(tracked.track.patch.ball());
-  tracks_.push_back(std::move(tracked.track));
+  candidate.surface.id = static_cast<uint32_t>(graph_.surfaces.size());
+  graph_.surfaces.push_back(std::move(candidate.surface));
+  balls_.push_back(candidate.track.patch.ball());
+  tracks_.push_back(std::move(candidate.track));
 }
 
 void Mapper::AbsorbInto(size_t i, const TrackedSurface& other) {
@@ -251,7 +246,6 @@ void Mapper::MergeDuplicates(bool settled) {
     for (size_t k = i + 1; k < surfaces.size(); ++k) {
       if (surfaces[i].observations.empty()) break;
       if (surfaces[k].observations.empty() || !MayTouch(balls_[i], balls_[k], options_)) continue;
-      if (tracks_[i].cut_from && tracks_[i].cut_from == tracks_[k].cut_from) continue;
       const bool directed = !settled || (surfaces[i].observations.size() > 1 && surfaces[k].observations.size() > 1);
       if (std::isinf(SurfaceDistance(tracks_[i].patch, tracks_[k].patch, options_, directed)) ||
           !FitOnePlane(tracks_[i], tracks_[k], options_))
@@ -277,27 +271,6 @@ void Mapper::DropEchoCells() {
     if (!TakeCells(gone[i], options_, &graph_.surfaces[i], &tracks_[i])) Empty(i);
     balls_[i] = tracks_[i].patch.ball();
   }
-}
-
-void Mapper::SplitWalls() {
-  if (graph_.planar) return;
-  for (size_t i = 0; i < graph_.surfaces.size(); ++i) {  // pieces that are new come after and are looked at in turn
-    if (graph_.surfaces[i].observations.empty() || graph_.surfaces[i].kind != SurfaceKind::kWall) continue;
-    while (SplitWall(i)) {
-    }
-  }
-}
-
-bool Mapper::SplitWall(size_t i) {
-  const std::optional<double> at_m = FindCut(ColumnsOf(graph_.surfaces[i], tracks_[i], graph_.keyframes, options_));
-  if (!at_m) return false;
-  std::optional<TrackedSurface> beyond = CutWall(*at_m, graph_.keyframes, options_, &graph_.surfaces[i], &tracks_[i]);
-  if (!beyond) return false;
-  if (!tracks_[i].cut_from) tracks_[i].cut_from = graph_.surfaces[i].id;
-  beyond->track.cut_from = tracks_[i].cut_from;
-  balls_[i] = tracks_[i].patch.ball();
-  AddSurface(std::move(*beyond));
-  return true;
 }
 
 void Mapper::OnPosesChanged(bool settled) {

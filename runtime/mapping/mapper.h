@@ -45,19 +45,12 @@ class Mapper {
   // for good. O(observations + surfaces^2).
   void OnPosesChanged(bool settled = false);
 
-  // Cuts wall surfaces in two where all views together tell a step or a bend that no single one told (wall_splitting.h). For poses that are
-  // known well: a bend in the robot's way bends its walls. The pieces beyond the cuts are new surfaces. O(surfaces * points of the
-  // keyframes that see each).
-  void SplitWalls();
-
  private:
   [[nodiscard]] bool WindowIsFull(double stamp_s, const Eigen::Isometry3d& T_odom_lidar) const;
   bool CloseWindow();
   [[nodiscard]] Eigen::Vector3d VelocitySinceLast(double stamp_s, const Eigen::Isometry3d& T_odom_lidar) const;
   [[nodiscard]] Smear SmearOf(double stamp_s, const Eigen::Isometry3d& T_odom_lidar) const;
   void AddSegment(const Segment& segment, const Keyframe& keyframe);
-  void AddSurface(TrackedSurface tracked);
-  bool SplitWall(size_t i);
   void AbsorbInto(size_t i, const TrackedSurface& other);
   void RecomputeSurface(size_t i);
   void Empty(size_t i);

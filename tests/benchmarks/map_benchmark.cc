@@ -202,7 +202,6 @@ bool Run(const std::string& path, const tools::SimulateOptions& options, double 
   if (polished.usable) {
     for (size_t i = 0; i < polished.T_map_kf.size(); ++i) driven.mapper.mutable_graph().keyframes[i].T_map_kf = polished.T_map_kf[i];
     driven.mapper.OnPosesChanged(true);
-    driven.mapper.SplitWalls();
   }
   const double polish_ms = Since_ms(start);
   const SGraph& map = driven.mapper.graph();

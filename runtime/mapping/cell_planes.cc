@@ -181,6 +181,25 @@ std::optional<Segment> SegmentOf(const std::vector<Cell>& cells, SurfaceKind kin
   return segment;
 }
 
+// A plane and how far its cells reach along.
+struct Reached {
+  Plane plane;
+  double from_m, to_m;
+  [[nodiscard]] bool Has(const Cell& cell, const PlaneAxes& axes) const {
+    const double at_m = axes.along.dot(cell.mean);
+    return at_m >= from_m && at_m <= to_m && cell.On(plane);
+  }
+};
+
+Reached ReachOf(const Plane& plane, const std::vector<Cell>& on, const PlaneAxes& axes) {
+  Reached out{plane, std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+  for (const Cell& cell : on) {
+    out.from_m = std::min(out.from_m, axes.along.dot(cell.mean));
+    out.to_m = std::max(out.to_m, axes.along.dot(cell.mean));
+  }
+  return out;
+}
+
 }  // namespace
 
 PlaneAxes AxesOf(const Plane& plane, SurfaceKind kind, const Eigen::Vector3d& up) {
@@ -205,6 +224,7 @@ std::vector<Segment> SplitCells(const std::vector<PlaneStats>& cells, SurfaceKin
   const double min_count = MinCellCount(remaining);
   const size_t min_cells = std::max<size_t>(kMinPatchCells, static_cast<size_t>(kMinShare * static_cast<double>(remaining.size())));
   std::vector<Segment> segments;
+  std::vector<Reached> before;
   for (int i = 0; i < kMaxPlanes && remaining.size() >= min_cells; ++i) {
     const Squares squares = Joined(remaining, axes, sigma_m);
     const Plane plane = BestPlane(squares.cells, normal);
@@ -217,8 +237,14 @@ std::vector<Segment> SplitCells(const std::vector<PlaneStats>& cells, SurfaceKin
     // What is left by a first plane is often just its roughest cells, strewn all over.
     if (i > 0) on = LargestGroup(on, axes);
     if (on.size() < min_cells) break;
-    if (std::optional<Segment> segment = SegmentOf(on, kind, normal, axes, min_count, options)) segments.push_back(std::move(*segment));
     remaining = std::move(off);
+    // Squares of a wall that bows, within it: no wall of their own.
+    const auto same = std::count_if(on.begin(), on.end(), [&](const Cell& cell) {
+      return std::any_of(before.begin(), before.end(), [&](const Reached& other) { return other.Has(cell, axes); });
+    });
+    if (2 * static_cast<size_t>(same) > on.size()) continue;
+    before.push_back(ReachOf(plane, on, axes));
+    if (std::optional<Segment> segment = SegmentOf(on, kind, normal, axes, min_count, options)) segments.push_back(std::move(*segment));
   }
   return segments;
 }

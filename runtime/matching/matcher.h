@@ -50,7 +50,7 @@ struct MatcherOptions {
   // on what the plan has there, and the place leads every rival, the plan's mirror image and "outside" by this many nats, and by this much
   // of its own log-likelihood unless nearly all rays end where they should. Furniture in the way, where half of the rays of an office may
   // end, says nothing: only those rays count that nothing stops in front, and the lead must be the longer, up to twice, the more are
-  // stopped, unless accept_min_planes agree.
+  // stopped.
   double vouch_explained_ratio = 0.65;
   double vouch_lead_nats = 30;
   double vouch_lead_ratio = 0.3;

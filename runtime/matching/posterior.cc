@@ -104,9 +104,8 @@ bool RaysVouch(const std::vector<Candidate>& sorted, double mirrored, const Matc
   double rival = std::max(0.0, mirrored);
   for (size_t i = 1; i < sorted.size(); ++i) rival = std::max(rival, sorted[i].rays.log_likelihood);
   const double lead = best.log_likelihood - rival;
-  // Rays that furniture stops are not charged, so that foreign plans rise where there are many; but few of their walls agree there.
-  const bool many_agree = sorted.front().fit.consistent_planes >= options.accept_min_planes;
-  const double least_nats = options.vouch_lead_nats * (many_agree ? 1.0 : std::clamp(4 * best.in_front_ratio, 1.0, 2.0));
+  // Rays that furniture stops are not charged, so that foreign plans rise where there are many.
+  const double least_nats = options.vouch_lead_nats * std::clamp(4 * best.in_front_ratio, 1.0, 2.0);
   return best.explained_ratio >= options.vouch_explained_ratio * counted_ratio && lead >= least_nats &&
          (lead >= options.vouch_lead_ratio * best.log_likelihood || best.explained_ratio >= options.vouch_nearly_all_ratio);
 }

@@ -237,6 +237,7 @@ void Mapper::Empty(size_t i) {
   graph_.surfaces[i].id = id;
   SurfacePatch& patch = tracks_[i].patch;
   patch.Forget(std::vector<bool>(patch.cells().size(), true));
+  balls_[i] = {};
 }
 
 // The older of two surfaces stays; the younger keeps its slot, empty. `settled` as in OnPosesChanged().
@@ -268,8 +269,11 @@ void Mapper::DropEchoCells() {
   }
   for (size_t i = 0; i < gone.size(); ++i) {
     if (std::find(gone[i].begin(), gone[i].end(), true) == gone[i].end()) continue;
-    if (!TakeCells(gone[i], options_, &graph_.surfaces[i], &tracks_[i])) Empty(i);
-    balls_[i] = tracks_[i].patch.ball();
+    if (TakeCells(gone[i], options_, &graph_.surfaces[i], &tracks_[i])) {
+      balls_[i] = tracks_[i].patch.ball();
+    } else {
+      Empty(i);
+    }
   }
 }
 

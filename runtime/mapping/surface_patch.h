@@ -53,9 +53,9 @@ class SurfacePatch {
   // the cell that p lies on, within distance_m of the plane: 0 if there is none.
   [[nodiscard]] const std::vector<uint32_t>& views() const { return views_; }
   [[nodiscard]] uint32_t ViewsAt(const Eigen::Vector3d& p, double distance_m) const;
-  [[nodiscard]] double area_m2() const;
-  // The same of the cells on or next to which p lies: the most, 0 if there are none.
+  // The same of the cell with most views of those on or next to which p lies.
   [[nodiscard]] uint32_t ViewsAbout(const Eigen::Vector3d& p, double distance_m) const;
+  [[nodiscard]] double area_m2() const;
   // How far outside the bounds, in either coordinate, a point may have views about it: less than this.
   [[nodiscard]] static double CoverMargin_m();
 

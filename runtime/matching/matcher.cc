@@ -287,8 +287,10 @@ Eigen::Isometry3d Matcher::Refined(const SGraph& map, const Eigen::Isometry3d& T
   const PoseSearch& search = impl_->search;
   const Eigen::Vector3d& origin = search.plan.plan().origin;
   const MapView view = ViewMap(map, search.options);
-  const WallFit fit = AssessOnWalls(search.plan, view, PoseOfView(T_plan_map, view, origin));
-  return PoseOfMap(RefineOnRays(search.plan, view, fit, search.options), view, origin);
+  const PlanarPose given = PoseOfView(T_plan_map, view, origin);
+  const PlanarPose refined = RefineOnRays(search.plan, view, AssessOnWalls(search.plan, view, given), search.options);
+  const auto score = [&](const PlanarPose& pose) { return JudgeRays(search.plan, view, pose, search.options).log_likelihood; };
+  return score(refined) > score(given) ? PoseOfMap(refined, view, origin) : T_plan_map;  // by all rays, not those climbed on alone
 }
 
 }  // namespace plumb::runtime

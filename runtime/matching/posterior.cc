@@ -166,7 +166,8 @@ std::string SizeDoubt(const Candidate& candidate, const std::optional<double>& s
   const double sigmas = std::max(0.0, options.accept_scale_error - std::abs(candidate.fit.scale_error)) / candidate.fit.sigma_scale;
   const double for_other_size = scaled ? std::max(0.0, *scaled - candidate.rays.log_likelihood) : 0;
   const double lead = 0.5 * sigmas * sigmas - for_other_size;
-  return lead < options.accept_margin_nats ? fmt::format("a plan of another size fits about as well ({:+.1f} nats)", -lead) : std::string();
+  if (lead >= options.accept_margin_nats) return {};
+  return fmt::format("a plan of another size fits about as well ({:+.1f} nats)", -lead);
 }
 
 MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, const AGraph& plan, const MatcherOptions& options,

@@ -88,12 +88,17 @@ class Optimizer {
     std::optional<JointProblem> problem(std::in_place, map_, plan_, frames_, matches_, fitted_, state_);
     const int rounds = schedule_.alternate ? options_.em_rounds : 1;
     for (int round = 0; round < rounds; ++round) {
+      const JointState before = state_;
       const bool moved = round > 0 && schedule_.consensus && Reseed(false);
       const double change = ExpectationStep(*problem);
       if (round > 1 && !moved && change < kSettled) break;  // a seed is no solution
       result.em_rounds = round + 1;
       if (Solve(*problem, result)) continue;
       if (round == 0) return result;
+      if (moved) {
+        state_ = before;
+        Measure();
+      }
       break;
     }
     if (options_.covariances && options_.fit_tolerance && schedule_.consensus) {

@@ -104,6 +104,7 @@ void AddSpan(const SGraph& map, const AGraph& plan, const Match& m, const WallEs
     face_from = std::min({face_from, along(face.start), along(face.end)});
     face_to = std::max({face_to, along(face.start), along(face.end)});
   }
+  if (face_from > face_to) return;
   for (const Eigen::Vector2d& end : {patch.start, patch.end}) {
     const double u = std::clamp(along((T_plan_map * Eigen::Vector3d(end.x(), end.y(), 0)).head<2>()), face_from, face_to);
     from = std::min(from, u);

@@ -24,7 +24,7 @@ class PlanEstimate {
 
   // Of a map that the matcher found there. `prior`: the place is as good as rays tell it, to decimetres.
   void Begin(const Eigen::Isometry3d& T_plan_map, bool prior);
-  // Where rays have the map now: known from more than its walls, as after Begin() with a prior.
+  // Where rays have the map now: known from more than its walls, as after Begin() with a prior. joint() stays that of the last solve.
   void Lay(const Eigen::Isometry3d& T_plan_map) { T_found_ = T_plan_map_ = T_plan_map; }
   // All but where the map lies.
   void Forget();

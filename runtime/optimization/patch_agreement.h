@@ -17,8 +17,8 @@ struct PatchDisagreement {
   double variance_ratio = 1;
   // Of all that were asked, (offset_m, yaw_rad), if the ratio is above 1: the solve settles on one of them instead.
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-  // To be added to the variances: mean square of how far off is what the solve has let go of, by area, if that is more than a third of what
-  // was seen of the wall; zero if less.
+  // To be added to the variances: mean over all that was seen of the wall, by area, of the square of how far off it is, what the solve has
+  // kept counting as not off at all; zero if what it has let go of is a third or less.
   Eigen::Matrix2d let_go = Eigen::Matrix2d::Zero();
 };
 

@@ -142,22 +142,22 @@ TEST(AssessDeviations, ADoorwayInAWallThatIsABoxIsNotJudged) {
   EXPECT_EQ(status(1.2), DoorwayStatus::kDeviated);
 }
 
-TEST(AssessDeviations, FewViewsAlongMoreThanABoxAreOfAWall) {
+// Of the east wall, known as well as can be, of which so much was seen.
+SurfaceStatus StatusOfEastWall(const WallDeviation& deviation, double observed_m2, double span_m) {
   const AGraph house = test::MakeHouse();
-  JointResult estimate = EstimateOfEastWall(house, {0.03, 0.2}, Eigen::Matrix2d::Identity() * 1e-6, 0.7);
-  estimate.walls[0].span_m = 1.2;
-  EXPECT_EQ(AssessDeviations(house, estimate).surfaces[9].status, SurfaceStatus::kUnobserved);
-  estimate.walls[0].span_m = 2.5;
-  EXPECT_EQ(AssessDeviations(house, estimate).surfaces[9].status, SurfaceStatus::kDeviated);
+  JointResult estimate = EstimateOfEastWall(house, deviation, Eigen::Matrix2d::Identity() * 1e-6, observed_m2);
+  estimate.walls[0].span_m = span_m;
+  return AssessDeviations(house, estimate).surfaces[9].status;
+}
+
+TEST(AssessDeviations, FewViewsAlongMoreThanABoxAreOfAWall) {
+  EXPECT_EQ(StatusOfEastWall({0.03, 0.2}, 0.7, 1.2), SurfaceStatus::kUnobserved);
+  EXPECT_EQ(StatusOfEastWall({0.03, 0.2}, 0.7, 2.5), SurfaceStatus::kDeviated);
 }
 
 TEST(AssessDeviations, AFaceFartherOffThanItIsLongIsNotKnownAgain) {
-  const AGraph house = test::MakeHouse();
-  JointResult estimate = EstimateOfEastWall(house, {0.4, 0}, Eigen::Matrix2d::Identity() * 1e-6, 0.8);
-  estimate.walls[0].span_m = 0.35;
-  EXPECT_EQ(AssessDeviations(house, estimate).surfaces[9].status, SurfaceStatus::kUnobserved);
-  estimate.walls[0].span_m = 0.5;
-  EXPECT_EQ(AssessDeviations(house, estimate).surfaces[9].status, SurfaceStatus::kDeviated);
+  EXPECT_EQ(StatusOfEastWall({0.4, 0}, 0.8, 0.35), SurfaceStatus::kUnobserved);
+  EXPECT_EQ(StatusOfEastWall({0.4, 0}, 0.8, 0.5), SurfaceStatus::kDeviated);
 }
 
 // Seen at an end alone, 4 m from the middle: off by 10 cm there, and by who knows how much in the middle.

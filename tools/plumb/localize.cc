@@ -17,7 +17,7 @@
 #include "tools/plumb/flag_names.h"
 #include "tools/plumb/interrupt.h"
 #include "tools/plumb/replayer.h"
-#include "tools/plumb/start_hint_flags.h"
+#include "tools/plumb/start_flags.h"
 #include "tools/plumb/updates.h"
 #include "tools/run/ply.h"
 #include "tools/run/run_folder.h"
@@ -34,7 +34,7 @@ struct LocalizeFlags {
   std::string plan, recording, output, updates;
   bool no_odometry = false;
   double tolerance_deg = 0.5;
-  std::string near_m;
+  std::string near_m, mount_deg;
   std::vector<std::string> rooms;
   double map_voxel_m = 0.02;
   runtime::LocalizerOptions options;
@@ -187,6 +187,9 @@ Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
   const auto hint = ParseStartHint(flags.near_m, flags.rooms, *plan);
   if (!hint) return session.Fail(hint.error());
   flags.options.hint = *hint;
+  const auto up_in_lidar = ParseMount(flags.mount_deg);
+  if (!up_in_lidar) return session.Fail(up_in_lidar.error());
+  flags.options.odometry.up_in_lidar = *up_in_lidar;
   const auto recording = runtime::Recording::Open(flags.recording);
   if (!recording) return session.Fail(recording.error());
   std::error_code error;
@@ -231,6 +234,9 @@ void AddLocalize(CLI::App& app, Session& session) {
   sub->add_option("--room", flags->rooms, "the robot starts in a room of this name (or source id); may be given again, for either. A hint")
       ->type_name("NAME")
       ->allow_extra_args(false);
+  sub->add_option("--mount", flags->mount_deg,
+                  "how the lidar sits on the robot, deg; needed where it is over 35 off upright and no upright odometry.tum tells")
+      ->type_name("ROLL,PITCH");
   sub->add_flag("--no-odometry", flags->no_odometry, "do without the recording's odometry.tum");
   sub->add_option("--start", flags->replay.start_s, "leave out this much of the recording at its beginning, s");
   sub->add_option("--max-duration", flags->replay.max_duration_s, "stop after this much of the rest; 0: all of it, s");

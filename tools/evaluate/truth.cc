@@ -23,10 +23,13 @@ std::vector<Eigen::Vector2d> ParsePolygon(const Json& json) {
   return polygon;
 }
 
+WallId ParseWallId(const Json& json) { return json.contains("wall_id") ? WallId(json.at("wall_id").get<uint32_t>()) : WallId(); }
+
 WallTruth ParseWall(const Json& json) {
   WallTruth wall;
   json.at("wall_guid").get_to(wall.guid);
   wall.name = json.value("wall_name", "");
+  wall.wall = ParseWallId(json);
   json.at("translation_m").get_to(wall.translation_m);
   json.at("rotation_deg").get_to(wall.rotation_deg);
   for (const Json& s : json.at("surfaces")) {
@@ -53,7 +56,9 @@ Expected<Truth> ParseTruth(const std::string& json, const std::string& source) {
       return Fail(ErrorCode::kNotARecording, fmt::format("`{}`: the simulation was broken off; simulate it again", source));
     if (const auto plan = root.find("plan"); plan != root.end()) truth.plan_source_sha256 = plan->value("sha256", "");
     for (const Json& wall : root.at("walls")) truth.walls.push_back(ParseWall(wall));
-    for (const Json& m : root.value("missing", Json::array())) truth.missing.push_back({m.at("wall_guid"), m.at("rays_through")});
+    for (const Json& m : root.value("missing", Json::array())) {
+      truth.missing.push_back({m.at("wall_guid"), m.at("rays_through"), ParseWallId(m)});
+    }
     for (const Json& u : root.value("unplanned", Json::array())) {
       truth.unplanned.push_back({ParsePolygon(u.at("polygon")), u.at("points")});
       if (truth.unplanned.back().polygon.size() < 3)

@@ -238,6 +238,7 @@ TEST(DeviationsToJson, HasTheAgreedForm) {
   const auto& east = json["surfaces"][9];
   EXPECT_EQ(east["id"], 9);
   EXPECT_EQ(east["wall_guid"], "wall-east");
+  EXPECT_EQ(east["wall_id"], house.surfaces[9].wall.value);
   EXPECT_EQ(east["storey"], "Ground floor");
   EXPECT_EQ(east["status"], "deviated");
   EXPECT_NEAR(east["rotation_deg"], 3, 0.3);

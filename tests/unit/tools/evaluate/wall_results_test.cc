@@ -91,6 +91,40 @@ TEST(CompareWalls, WithoutCountsTheRunSaysWhatWasObserved) {
   EXPECT_EQ(results[1].outcome, WallOutcome::kUnobserved);
 }
 
+// A drawing's walls have no guids: two of them deviate, one is accused wrongly, one stands.
+TEST(CompareWalls, WallsWithoutGuidsAreToldApartById) {
+  Truth truth;
+  truth.has_walls = true;
+  truth.walls = {{"", 0.2, 0, {{SurfaceId(0), {0.2, 0}}}, "", WallId(0)}, {"", 0.3, 0, {}, "", WallId(1)}, {"", 0, 0, {}, "", WallId(2)}};
+  Deviations reported{"",
+                      {Entry(0, "", "deviated", 0.2), Entry(1, "", "as_planned"), Entry(2, "", "as_planned", 0.01),
+                       Entry(3, "", "deviated", 0.1), Entry(4, "", "deviated", 0.12), Entry(5, "", "as_planned")},
+                      {}};
+  const uint32_t walls[] = {0, 0, 1, 2, 2, 3};
+  for (size_t i = 0; i < reported.surfaces.size(); ++i) reported.surfaces[i].wall = WallId(walls[i]);
+  const auto results = CompareWalls(truth, reported, 200);
+  ASSERT_EQ(results.size(), 3u);
+  EXPECT_EQ(results[0].outcome, WallOutcome::kFound);
+  EXPECT_EQ(results[0].wall, WallId(0));
+  EXPECT_EQ(results[1].outcome, WallOutcome::kMissed);
+  EXPECT_EQ(results[1].wall, WallId(1));
+  EXPECT_EQ(results[2].outcome, WallOutcome::kFalse);
+  EXPECT_EQ(results[2].wall, WallId(2));
+  EXPECT_EQ(results[2].surface, SurfaceId(4));
+}
+
+TEST(CompareWalls, SurfacesThatTellNoWallBelongWhereTheTruthListsThemOrToNone) {
+  Truth truth;
+  truth.has_walls = true;
+  truth.walls = {{"", 0.2, 0, {{SurfaceId(0), {0.2, 0}}}, "", WallId(0)}};
+  const Deviations reported{"", {Entry(0, "", "deviated", 0.2), Entry(1, "", "deviated", 0.1), Entry(2, "", "deviated", 0.1)}, {}};
+  const auto results = CompareWalls(truth, reported, 200);
+  ASSERT_EQ(results.size(), 3u);
+  EXPECT_EQ(results[0].outcome, WallOutcome::kFound);
+  EXPECT_EQ(results[1].outcome, WallOutcome::kFalse);
+  EXPECT_EQ(results[2].outcome, WallOutcome::kFalse);
+}
+
 TEST(CompareWalls, ADisplacementThatIsFarOffIsNotFound) {
   SurfaceEntry a = Entry(0, "A", "deviated", 0.26, 2), b = Entry(2, "B", "deviated", -0.15);
   b.sigma_translation_m = 0.03;
@@ -110,12 +144,14 @@ TEST(CompareWalls, AWallThatTheRunDoesNotKnowIsUnobserved) {
 }
 
 TEST(ParseTruth, ReadsWallsAndPointCounts) {
-  const auto truth = ParseTruth(R"({"version":1,"walls":[{"wall_guid":"A","wall_name":"south wall","translation_m":0.2,"rotation_deg":-1.5,
+  const auto truth =
+      ParseTruth(R"({"version":1,"walls":[{"wall_guid":"A","wall_id":5,"wall_name":"south wall","translation_m":0.2,"rotation_deg":-1.5,
     "surfaces":[{"id":7,"translation_m":-0.2,"rotation_deg":-1.5}]}],"surface_points":{"7":1234}})",
-                                "truth.json");
+                 "truth.json");
   ASSERT_TRUE(truth) << truth.error().message;
   ASSERT_EQ(truth->walls.size(), 1u);
   EXPECT_EQ(truth->walls[0].name, "south wall");
+  EXPECT_EQ(truth->walls[0].wall, WallId(5));
   EXPECT_EQ(truth->walls[0].surfaces.at(SurfaceId(7)).translation_m, -0.2);
   EXPECT_EQ(truth->surface_points.at(SurfaceId(7)), 1234);
   EXPECT_TRUE(truth->walls[0].deviates());

@@ -54,10 +54,11 @@ struct Truth {
   std::vector<WallTruth> walls;    // in the file's order; walls that are not listed are as planned
   std::vector<MissingTruth> missing;
   std::vector<UnplannedTruth> unplanned;
-  std::vector<DoorwayTruth> doorways;          // all that may be judged; empty: not recorded
-  std::map<SurfaceId, double> surface_points;  // returns that hit each surface; empty: not recorded
-  std::string plan_source_sha256;              // of the plan that the recording was simulated in; empty: not recorded
-  bool has_walls = false;                      // false: the recording has no truth.json
+  std::vector<DoorwayTruth> doorways;           // all that may be judged; empty: not recorded
+  std::map<SurfaceId, double> surface_points;   // returns that hit each surface; empty: not recorded
+  std::map<SurfaceId, double> surface_seen_m2;  // what they came from of it, in cells of 10 cm; empty: not recorded
+  std::string plan_source_sha256;               // of the plan that the recording was simulated in; empty: not recorded
+  bool has_walls = false;                       // false: the recording has no truth.json
 };
 
 // Errors: kNotARecording, with the key.

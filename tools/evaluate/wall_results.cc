@@ -14,11 +14,18 @@ constexpr double kAccurate_m = 0.04, kAccurateSigmas = 2;
 
 bool ReportedOff(const SurfaceEntry& s) { return s.status == "deviated"; }
 
-bool Observed(const Surfaces& surfaces, const Truth& truth, double min_points) {
+// What counts as observed.
+struct Enough {
+  double points, seen_m2;
+};
+
+bool Observed(const Surfaces& surfaces, const Truth& truth, const Enough& enough) {
   return std::any_of(surfaces.begin(), surfaces.end(), [&](const SurfaceEntry* s) {
     if (truth.surface_points.empty()) return s->status != "unobserved";
     const auto hits = truth.surface_points.find(s->id);
-    return hits != truth.surface_points.end() && hits->second >= min_points;
+    if (hits == truth.surface_points.end() || hits->second < enough.points) return false;
+    const auto seen = truth.surface_seen_m2.find(s->id);
+    return truth.surface_seen_m2.empty() || (seen != truth.surface_seen_m2.end() && seen->second >= enough.seen_m2);
   });
 }
 
@@ -55,7 +62,7 @@ WallResult Reported(const SurfaceEntry& s, WallOutcome outcome, const SurfaceTru
   return r;
 }
 
-WallResult ResultOf(const WallTruth& wall, const Surfaces& surfaces, const Truth& truth, double min_points) {
+WallResult ResultOf(const WallTruth& wall, const Surfaces& surfaces, const Truth& truth, const Enough& enough) {
   WallResult worst;
   worst.wall = wall.wall;
   worst.guid = wall.guid;
@@ -64,7 +71,7 @@ WallResult ResultOf(const WallTruth& wall, const Surfaces& surfaces, const Truth
   worst.true_rotation_deg = wall.rotation_deg;
   const bool judged = std::any_of(surfaces.begin(), surfaces.end(), [](const SurfaceEntry* s) { return s->status != "unobserved"; });
   const WallOutcome seen = judged ? WallOutcome::kMissed : WallOutcome::kUnjudged;
-  worst.outcome = Observed(surfaces, truth, min_points) ? seen : WallOutcome::kUnobserved;
+  worst.outcome = Observed(surfaces, truth, enough) ? seen : WallOutcome::kUnobserved;
   for (const SurfaceEntry* s : Deviating(surfaces)) {
     WallResult r = Reported(*s, WallOutcome::kFound, TruthOf(wall, s->id));
     r.wall = wall.wall;
@@ -120,7 +127,7 @@ bool IsOfWall(const SurfaceEntry& surface, WallId wall, const std::string& guid)
   return !guid.empty() && surface.wall_guid == guid;
 }
 
-std::vector<WallResult> CompareWalls(const Truth& truth, const Deviations& reported, double min_points) {
+std::vector<WallResult> CompareWalls(const Truth& truth, const Deviations& reported, double min_points, double min_seen_m2) {
   Surfaces rest;
   for (const SurfaceEntry& s : reported.surfaces) rest.push_back(&s);
   std::vector<WallResult> results;
@@ -128,7 +135,7 @@ std::vector<WallResult> CompareWalls(const Truth& truth, const Deviations& repor
     if (!wall.deviates()) continue;
     const Surfaces surfaces =
         TakeIf(rest, [&](const SurfaceEntry& s) { return wall.surfaces.contains(s.id) || IsOfWall(s, wall.wall, wall.guid); });
-    results.push_back(ResultOf(wall, surfaces, truth, min_points));
+    results.push_back(ResultOf(wall, surfaces, truth, {min_points, min_seen_m2}));
   }
   while (!rest.empty()) {
     const SurfaceEntry first = *rest.front();

@@ -36,8 +36,9 @@ struct WallResult {
 // One entry per wall that deviates or is reported to (missing walls are CompareMissing()'s), by outcome, then by guid and id. A surface
 // belongs to the wall of which truth.json lists it, else to that of its wall_id, or where an older run or recording does not tell that, of
 // its wall_guid; one that tells neither is a wall of its own. A wall counts as observed when at least `min_points` returns hit one of its
-// surfaces (truth.json), or where that was not recorded, when the run says so.
-[[nodiscard]] std::vector<WallResult> CompareWalls(const Truth& truth, const Deviations& reported, double min_points);
+// surfaces, on at least `min_seen_m2` (truth.json; recordings of older simulations tell the returns alone), or where that was not recorded,
+// when the run says so.
+[[nodiscard]] std::vector<WallResult> CompareWalls(const Truth& truth, const Deviations& reported, double min_points, double min_seen_m2);
 
 // Whether the surface is of that wall: by id where both are known, else by guid; plans other than IFC have no guids.
 [[nodiscard]] bool IsOfWall(const SurfaceEntry& surface, WallId wall, const std::string& guid);

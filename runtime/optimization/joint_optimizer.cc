@@ -22,7 +22,7 @@
 namespace plumb::runtime {
 namespace {
 
-constexpr double kSettled = 0.01;      // responsibilities that change less end the EM rounds
+constexpr double kSettled = 0.01;      // priors that change less end the EM rounds
 constexpr double kNoThickness = 1e-3;  // of its prior: as good as none
 constexpr double kElsewhere_m = 0.03;  // between rounds: what the next solve does not come to by itself
 
@@ -171,7 +171,7 @@ class Optimizer {
     if (held()) return change;
     for (size_t w = 0; w < measurements_.size(); ++w) {
       const Responsibilities r = AssessMixture(measurements_[w].At(state_.bias_m), measurements_[w].covariance, fitted_.coupling);
-      change = std::max({change, std::abs(r.offset - responsibilities_[w].offset), std::abs(r.yaw - responsibilities_[w].yaw)});
+      change = std::max(change, PriorChange(responsibilities_[w], r));
       responsibilities_[w] = r;
       const bool uniform = schedule_.prior == EstimationSchedule::WallPrior::kUniform;
       priors_[w] = uniform ? UniformInformation(fitted_.coupling) : PriorInformation(r, fitted_.coupling);

@@ -117,6 +117,8 @@ class Assignment {
     size_t best = 0;
     double best_cost = 1e300;
     for (size_t k = 0; k < lines.size(); ++k) {
+      const size_t first = lines[k].patches.front();
+      const FaceCandidate& face = candidates_[first].front();
       double cost = Cost(lines[k], side, false);
       bool hides = false;
       for (size_t j = 0; j < lines.size(); ++j) {
@@ -125,10 +127,9 @@ class Assignment {
         cost += elsewhere;
         hides |= elsewhere >= options_.unmatched_cost_nats && Hides(lines[k], lines[j]);
       }
-      if (hides) cost += kFrontPenalty_nats;
+      if (hides && !face.glass) cost += kFrontPenalty_nats;
       // Of a wall that is turned, part of a line where it was planned is in front: what is seen beyond the other part tells.
-      const size_t first = lines[k].patches.front();
-      if (is_seen_through_(patches_[first], candidates_[first].front().surface)) cost += kSeenThroughPenalty_nats;
+      if (!face.glass && is_seen_through_(patches_[first], face.surface)) cost += kSeenThroughPenalty_nats;
       if (cost < best_cost - 1e-9) {
         best_cost = cost;
         best = k;

@@ -55,6 +55,7 @@ std::optional<FaceCandidate> Compare(const Patch& patch, const PlannedFace& face
   FaceCandidate c;
   c.surface = face.id;
   c.side = face.side;
+  c.glass = face.glass;
   c.offset_m = n.head<2>().dot(on_patch - on_plan);
   c.yaw_rad = yaw;
   const Eigen::Vector2d arm = on_plan - frame.pivot.head<2>();
@@ -64,7 +65,7 @@ std::optional<FaceCandidate> Compare(const Patch& patch, const PlannedFace& face
   if (OpenRatio(patch, openings, along, std::min(c.offset_m, residual.x()) < -kRecess_m) > kMaxOpenRatio) return std::nullopt;
   const bool off_plan = std::abs(c.offset_m) > kOffPlan_m;
   if ((off_plan || std::abs(yaw) > kOffPlan_rad) && !IsMostOf(face, faces, patch)) return std::nullopt;
-  if (off_plan && IsSeenThrough(patch, surface, openings, sight)) return std::nullopt;
+  if (off_plan && !face.glass && IsSeenThrough(patch, surface, openings, sight)) return std::nullopt;
   const double yaw_sigma = kMapSigma_m / std::max(patch.length(), 0.3);
   const Eigen::Matrix2d covariance = Eigen::Vector2d(kMapSigma_m * kMapSigma_m, yaw_sigma * yaw_sigma).asDiagonal();
   const double explained = ExplainedRatio(patch, surface) * HeightRatio(patch, surface);
@@ -72,16 +73,27 @@ std::optional<FaceCandidate> Compare(const Patch& patch, const PlannedFace& face
   return c;
 }
 
+// With panes that are no windows or doors in them.
+std::vector<bool> GlassWalls(const AGraph& plan) {
+  std::vector<bool> glass(plan.walls.size(), false);
+  for (const Element& e : plan.elements) {
+    const bool in_opening = e.kind == ElementKind::kDoor || e.kind == ElementKind::kWindow || e.doorway.valid();
+    if (e.wall.valid() && e.material == Material::kGlass && !in_opening) glass[e.wall.index()] = true;
+  }
+  return glass;
+}
+
 }  // namespace
 
 std::vector<PlannedFace> PlannedFaces(const AGraph& plan, const std::vector<WallFrame>& frames,
                                       const std::vector<std::vector<WallOpening>>& openings) {
+  const std::vector<bool> glass = GlassWalls(plan);
   std::vector<PlannedFace> faces;
   for (size_t i = 0; i < plan.surfaces.size(); ++i) {
     const Surface& surface = plan.surfaces[i];
     if (!surface.wall.valid() || !IsFace(frames[surface.wall.index()], surface)) continue;
     const WallFrame& frame = frames[surface.wall.index()];
-    faces.push_back({SurfaceId(i), &surface, &frame, &openings[surface.wall.index()], SideOf(frame, surface)});
+    faces.push_back({SurfaceId(i), &surface, &frame, &openings[surface.wall.index()], SideOf(frame, surface), glass[surface.wall.index()]});
   }
   return faces;
 }

@@ -20,12 +20,14 @@ struct PlannedFace {
   const Surface* surface;
   const WallFrame* frame;
   const std::vector<WallOpening>* openings;
-  int side;  // SideOf(): patches of one side lie on one line
+  int side;    // SideOf(): patches of one side lie on one line
+  bool glass;  // of a wall that is planned of glass: what is seen past it does not speak against it
 };
 
 struct FaceCandidate {
   SurfaceId surface;
-  int side = 0;  // PlannedFace::side
+  int side = 0;        // PlannedFace::side
+  bool glass = false;  // PlannedFace::glass
   double offset_m = 0, yaw_rad = 0, cost_nats = 0;
 };
 

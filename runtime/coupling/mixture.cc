@@ -55,6 +55,12 @@ Eigen::Vector2d PriorInformation(const Responsibilities& r, const CouplingOption
           expected(r.yaw_is_wide ? r.any : 0, options.yaw_tau0_rad, options.yaw_tau1_rad)};
 }
 
+double PriorChange(const Responsibilities& before, const Responsibilities& after) {
+  const bool another_way = before.offset_is_wide != after.offset_is_wide || before.yaw_is_wide != after.yaw_is_wide;
+  return std::max({std::abs(after.offset - before.offset), std::abs(after.yaw - before.yaw),
+                   another_way ? std::max(before.any, after.any) : std::abs(after.any - before.any)});
+}
+
 Eigen::Vector2d UniformInformation(const CouplingOptions& options) {
   const double wide = options.deviated_ratio * 2 / 3;  // of the three cases that deviate, two turn the wall and two move it
   const auto variance = [&](double tau0, double tau1) { return (1 - wide) * tau0 * tau0 + wide * tau1 * tau1; };

@@ -37,7 +37,11 @@ struct MixtureComponent {
 // have both held at zero, and its views would have no grip on it.
 [[nodiscard]] Eigen::Vector2d PriorInformation(const Responsibilities& r, const CouplingOptions& options);
 
-// The same for a wall of which nothing is known: inverse variances of the mixture as a whole.
+// How much the priors of one E step differ from those of another, 0 to 1: a wall that deviates may change how it does while the
+// probabilities hardly move.
+[[nodiscard]] double PriorChange(const Responsibilities& before, const Responsibilities& after);
+
+// PriorInformation() of a wall of which nothing is known: inverse variances of the mixture as a whole.
 [[nodiscard]] Eigen::Vector2d UniformInformation(const CouplingOptions& options);
 
 }  // namespace plumb::runtime

@@ -45,6 +45,13 @@ double MeanDensity(double a, double b) {
   return std::max(kLeast, integral / (b - a));
 }
 
+// Not only by the margin that what is seen of a face may reach beyond it: the wall may stand as planned in the next room.
+bool RunsAlong(const Patch& patch, const Surface& face) {
+  const Eigen::Vector2d along = (face.end - face.start).normalized();
+  const auto [from, to] = std::minmax({along.dot(patch.start - face.start), along.dot(patch.end - face.start)});
+  return from < face.length_m() && to > 0;
+}
+
 class Search {
  public:
   Search(const AGraph& plan, const std::vector<WallFrame>& frames, const std::vector<std::vector<WallOpening>>& openings,
@@ -112,7 +119,7 @@ class Search {
       sum.passed += more.passed;
     };
     for (const Surface* face : side) {
-      if (ExplainedRatio(patch, *face) == 0) continue;
+      if (!RunsAlong(patch, *face)) continue;
       if (IsSeenThrough(patch, *face, openings, sight_)) return false;
       add(sight_.Meeting({patch.midpoint(), patch.normal.head<2>().normalized(), face, &openings}), here);
       add(sight_.Meeting({face->midpoint(), face->normal.head<2>().normalized(), face, &openings}), planned);

@@ -44,6 +44,16 @@ BestKnown WhereKnownBest(const WallEvidence& evidence) {
   return out;
 }
 
+// What a room has of boxes stands in front of its walls: behind the planned face it would not be seen if the wall stood there.
+bool StandsBehind(const AGraph& plan, const std::vector<WallFrame>& frames, const WallEstimate& wall, const BestKnown& best,
+                  const DeviationOptions& options) {
+  if (wall.seen.empty()) return false;
+  const auto most = std::max_element(wall.seen.begin(), wall.seen.end(),
+                                     [](const SeenSurface& a, const SeenSurface& b) { return a.observed_m2 < b.observed_m2; });
+  const double side = MakeFace(frames[wall.wall.index()], plan.surfaces[most->surface.index()]).side();
+  return side * best.offset_m < -2 * std::sqrt(TestVariance_m2(wall, best.gain, options));
+}
+
 // Which hypotheses are rejected at the given false discovery rate.
 std::vector<bool> BenjaminiHochberg(const std::vector<double>& p_values, double rate) {
   std::vector<double> sorted = p_values;
@@ -57,7 +67,8 @@ std::vector<bool> BenjaminiHochberg(const std::vector<double>& p_values, double 
   return rejected;
 }
 
-std::vector<SurfaceStatus> WallStatuses(const JointResult& estimate, const DeviationOptions& options) {
+std::vector<SurfaceStatus> WallStatuses(const AGraph& plan, const std::vector<WallFrame>& frames, const JointResult& estimate,
+                                        const DeviationOptions& options) {
   std::vector<SurfaceStatus> statuses(estimate.walls.size(), SurfaceStatus::kUnobserved);
   if (!estimate.covariances_exact) return statuses;  // without them nothing can be tested, and untested is not "as planned"
   std::vector<size_t> observed;
@@ -77,8 +88,8 @@ std::vector<SurfaceStatus> WallStatuses(const JointResult& estimate, const Devia
     // A turn read off a short piece of a wall that may stand anywhere is no finding.
     const BestKnown best = WhereKnownBest(w.evidence);
     const bool placed = testable || std::abs(best.offset_m) > 2 * std::sqrt(TestVariance_m2(w, best.gain, options));
-    const bool a_box =
-        std::abs(w.deviation.yaw_rad) >= options.turned_rad && w.observed_m2 < options.min_turned_m2 && w.span_m < options.min_turned_m;
+    const bool a_box = std::abs(w.deviation.yaw_rad) >= options.turned_rad && w.observed_m2 < options.min_turned_m2 &&
+                       w.span_m < options.min_turned_m && !StandsBehind(plan, frames, w, best, options);
     // Nor is one that stands farther off than it was seen long: its like stands anywhere.
     const bool known_again = w.span_m >= std::abs(best.offset_m);
     const bool deviated = rejected[k] && large && w.p_deviated >= options.min_p_deviated && placed && !a_box && known_again;
@@ -198,7 +209,7 @@ DeviationReport AssessDeviations(const AGraph& plan, const JointResult& estimate
   for (size_t i = 0; i < plan.surfaces.size(); ++i) report.surfaces[i].surface = SurfaceId(i);
 
   const std::vector<WallFrame> frames = WallFrames(plan);
-  const std::vector<SurfaceStatus> statuses = WallStatuses(estimate, options);
+  const std::vector<SurfaceStatus> statuses = WallStatuses(plan, frames, estimate, options);
   std::vector<const WallEstimate*> by_wall(plan.walls.size(), nullptr);
   for (const WallEstimate& w : estimate.walls) by_wall[w.wall.index()] = &w;
   for (size_t i = 0; i < plan.surfaces.size(); ++i) {

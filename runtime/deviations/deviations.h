@@ -24,7 +24,7 @@ struct DeviationOptions {
   double min_yaw_rad = 0.0087;
   double min_observed_m2 = 0.5;                     // less, over all faces of a wall, was not seen well enough to judge
   double turned_rad = 0.0873, min_turned_m2 = 1.0;  // ... nor was a wall turned so far: boxes have faces of that size at any angle, ...
-  double min_turned_m = 1.5;                        // ... but are not so long
+  double min_turned_m = 1.5;                        // ... but are not so long, and stand in front of walls, not behind them
   double min_p_deviated = 0.97;                     // three in a hundred of those reported may be wrong
   double max_p_as_planned = 0.5;                    // nor is one as planned that more likely is not
   double max_mdb_m = 0.2;                           // a wall of which only larger deviations would have been found was not tested; ...

@@ -13,6 +13,7 @@ Json SurfaceEntry(const AGraph& plan, const SurfaceDeviation& d) {
   const Surface& s = plan.surfaces[d.surface.index()];
   Json out;
   out["id"] = d.surface.value;
+  out["wall_id"] = s.wall.valid() ? Json(s.wall.value) : Json(nullptr);
   out["wall_guid"] = s.wall.valid() ? TextOrNull(plan.walls[s.wall.index()].guid) : Json(nullptr);
   out["storey"] = s.storey.valid() ? Json(plan.storeys[s.storey.index()].name) : Json(nullptr);
   out["normal"] = {Rounded(s.normal.x(), 1e9), Rounded(s.normal.y(), 1e9), Rounded(s.normal.z(), 1e9)};

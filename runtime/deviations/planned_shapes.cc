@@ -16,6 +16,8 @@ constexpr double kMinHit = 0.7;          // share of a part's cells that have a 
 constexpr double kMinExplained = 0.7;    // share of the area
 constexpr size_t kParts = 3, kMinCells = 4;
 constexpr size_t kMaxCells = 300;  // of one surface: enough to tell
+constexpr double kPastTriangle_m = 1e-3;
+constexpr int kMaxTriangles = 8;  // about one place
 
 struct Part {
   std::vector<double> to_triangles, to_face;  // signed distances of what was seen, of each cell; kProbe_m: no triangle is near
@@ -27,9 +29,28 @@ double Median(std::vector<double>& values) {
   return *middle;
 }
 
+// Signed distance of what was seen at p to the nearest triangle along its normal n; kProbe_m: none is near. A wall that moved away hides
+// nothing of what stood behind or against it, so of its own triangles only the foremost counts.
+double ToTriangles_m(const AGraph& plan, const RayCaster& caster, WallId wall, const Eigen::Vector3d& p, const Eigen::Vector3d& n) {
+  double nearest_m = kProbe_m, from_m = -kProbe_m;
+  for (int i = 0; i < kMaxTriangles && from_m < kProbe_m; ++i) {
+    Ray ray;
+    ray.origin = (p - from_m * n - plan.origin).cast<float>();
+    ray.direction = -n.cast<float>();
+    ray.max_range_m = static_cast<float>(kProbe_m - from_m);
+    const RayHit hit = caster.Cast(ray);
+    if (!hit.hit()) break;
+    const double at_m = from_m + static_cast<double>(hit.range_m);
+    const bool of_wall = plan.elements[plan.mesh.triangles[hit.triangle].element].wall == wall;
+    if ((i == 0 || !of_wall) && std::abs(at_m) < std::abs(nearest_m)) nearest_m = at_m;
+    from_m = at_m + kPastTriangle_m;
+  }
+  return nearest_m;
+}
+
 // Along the length of a map surface.
-std::array<Part, kParts> PartsOf(const MapSurface& seen, const Surface& face, const Eigen::Isometry3d& T_plan_map, const RayCaster& caster,
-                                 const Eigen::Vector3d& origin) {
+std::array<Part, kParts> PartsOf(const MapSurface& seen, const Surface& face, const Eigen::Isometry3d& T_plan_map, const AGraph& plan,
+                                 const RayCaster& caster) {
   std::array<Part, kParts> out;
   const Eigen::Vector2d along = (seen.end - seen.start).normalized(), face_normal = face.normal.head<2>();
   const Eigen::Vector3d n = T_plan_map.linear() * seen.plane.n;
@@ -38,23 +59,18 @@ std::array<Part, kParts> PartsOf(const MapSurface& seen, const Surface& face, co
     const Eigen::Vector2d at = seen.start + static_cast<double>(seen.cells[i].x()) * along;
     Eigen::Vector3d p(at.x(), at.y(), static_cast<double>(seen.cells[i].y()));
     p = T_plan_map * (p - (seen.plane.n.dot(p) + seen.plane.d) * seen.plane.n);
-    Ray ray;
-    ray.origin = (p + kProbe_m * n - origin).cast<float>();
-    ray.direction = -n.cast<float>();
-    ray.max_range_m = static_cast<float>(2 * kProbe_m);
-    const RayHit hit = caster.Cast(ray);
     const double share = static_cast<double>(seen.cells[i].x()) / std::max(seen.length_m(), 1e-9);
     Part& part = out[static_cast<size_t>(std::clamp(share * kParts, 0.0, static_cast<double>(kParts - 1)))];
-    part.to_triangles.push_back(hit.hit() ? static_cast<double>(hit.range_m) - kProbe_m : kProbe_m);
+    part.to_triangles.push_back(ToTriangles_m(plan, caster, face.wall, p, n));
     part.to_face.push_back(face_normal.dot(p.head<2>() - face.start));
   }
   return out;
 }
 
-bool LiesOnPlan(const MapSurface& seen, const Surface& face, const Eigen::Isometry3d& T_plan_map, const RayCaster& caster,
-                const Eigen::Vector3d& origin) {
+bool LiesOnPlan(const MapSurface& seen, const Surface& face, const Eigen::Isometry3d& T_plan_map, const AGraph& plan,
+                const RayCaster& caster) {
   double off_triangles_m = -1, off_face_m = 0;
-  for (Part& part : PartsOf(seen, face, T_plan_map, caster, origin)) {
+  for (Part& part : PartsOf(seen, face, T_plan_map, plan, caster)) {
     if (part.to_face.size() < kMinCells) continue;
     const auto hits = std::count_if(part.to_triangles.begin(), part.to_triangles.end(), [](double d) { return d < kProbe_m; });
     if (static_cast<double>(hits) < kMinHit * static_cast<double>(part.to_face.size())) return false;
@@ -73,7 +89,7 @@ std::vector<bool> MatchesOnOtherShapes(const SGraph& map, const AGraph& plan, co
   for (const Match& match : matches) {
     const bool of_wall = match.plan_surface.valid() && plan.surfaces[match.plan_surface.index()].wall.valid();
     out.push_back(of_wall && LiesOnPlan(map.surfaces[match.map_surface], plan.surfaces[match.plan_surface.index()], estimate.T_plan_map,
-                                        caster, plan.origin));
+                                        plan, caster));
   }
   return out;
 }

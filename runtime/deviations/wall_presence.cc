@@ -227,7 +227,12 @@ class Presence {
   // Was some of it seen where it is planned? A wall is cut short where the next one was built through its place, and seen through there.
   [[nodiscard]] bool StandsInPart(const WallEstimate& wall) const {
     return std::abs(wall.deviation.offset_m) < kStanding_m && std::abs(wall.deviation.yaw_rad) < kStanding_rad &&
-           wall.span_m >= options_.min_length_ratio * plan_.surfaces[wall.reference.index()].length_m();
+           wall.seen_m >= options_.min_length_ratio * Length_m(plan_.walls[wall.wall.index()], plan_.surfaces[wall.reference.index()]);
+  }
+
+  // Rooms divide the wall into faces, of which the reference is one.
+  static double Length_m(const Wall& wall, const Surface& reference) {
+    return std::max((wall.axis_end - wall.axis_start).norm(), reference.length_m());
   }
 
   [[nodiscard]] bool IsOpen(const Cell& cell) const {

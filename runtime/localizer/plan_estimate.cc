@@ -1,6 +1,7 @@
 #include "runtime/localizer/plan_estimate.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "runtime/deviations/planned_shapes.h"
 
@@ -10,6 +11,13 @@ namespace {
 // Of a map's place by its rays. Where few walls are seen and one or two of them deviate, walls alone would lay the plan now on these, now
 // on those. Half of the walls that a planar laser sees are furniture, which may agree with each other better than with the walls.
 constexpr double kPlaceSigma_m = 0.1, kPlanarPlaceSigma_m = 0.05;
+
+// Whether what is known of the wall now speaks against its plan. Where patches contradict each other nothing is certain of the wall, and it
+// is not likely to deviate, though it is solved for as if it did.
+bool SeemsToDeviate(const WallEstimate& wall, const DeviationOptions& options) {
+  return wall.p_deviated >= 0.5 || std::abs(wall.deviation.offset_m) >= options.min_offset_m ||
+         std::abs(wall.deviation.yaw_rad) >= options.min_yaw_rad;
+}
 
 }  // namespace
 
@@ -61,7 +69,7 @@ bool PlanEstimate::Solve(Mapper& mapper, bool covariances, bool judging) {
 void PlanEstimate::FindOtherShapes(const SGraph& map) {
   const std::vector<bool> on_other_shape = MatchesOnOtherShapes(map, *plan_, matches_, joint_);
   for (const WallEstimate& wall : joint_.walls) {
-    if (wall.p_deviated < 0.5) continue;
+    if (!SeemsToDeviate(wall, options_->deviations)) continue;
     for (size_t i = 0; i < matches_.size(); ++i) {
       if (!on_other_shape[i] || WallOf(matches_[i]) != wall.wall) continue;
       other_shapes_.insert({matches_[i].map_surface, wall.wall});

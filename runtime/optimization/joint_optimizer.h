@@ -63,7 +63,8 @@ struct WallEstimate {
   double p_deviated = 0;                              // that the wall belongs to the mixture's wide components
   double num_points = 0;                              // over all its faces
   double observed_m2 = 0;
-  double span_m = 0;              // along the wall, from the first to the last that was seen of any face
+  double span_m = 0;              // along the wall, from the first to the last that was seen of any face, ...
+  double seen_m = 0;              // ... and what was seen of that, in steps of 10 cm
   std::vector<SeenSurface> seen;  // by surface id
 };
 

@@ -1,7 +1,9 @@
 #include "runtime/optimization/seen_walls.h"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
+#include <set>
 #include <utility>
 
 namespace plumb::runtime {
@@ -9,6 +11,8 @@ namespace {
 
 constexpr double kMinHeightOverlap = 0.5;  // of the lower of a patch and a face
 constexpr double kSameSide = 0.9;          // cosine between normals of faces of one side of a wall
+constexpr double kMostLonger_m = 0.6;      // than planned at either end, however far off the wall is
+constexpr double kStep_m = 0.1;
 
 // Of the points of a match's patch, those that say something of its wall.
 double ShareThatCounts(const SGraph& map, const Match& m) {
@@ -21,10 +25,11 @@ double ShareThatCounts(const SGraph& map, const Match& m) {
   return all > 0 ? counts / all : 0;
 }
 
-// By how much the wall is off at a place.
-double Off_m(const WallEstimate& wall, const WallFrame& frame, const Eigen::Vector2d& at) {
+// By how much the wall may be longer at an end: as much as it is off there.
+double Longer_m(const WallEstimate& wall, const WallFrame& frame, const Eigen::Vector2d& at) {
   const Eigen::Vector2d arm = at - frame.pivot.head<2>();
-  return std::abs(wall.deviation.offset_m + wall.deviation.yaw_rad * frame.normal.head<2>().dot(Eigen::Vector2d(-arm.y(), arm.x())));
+  const double off_m = wall.deviation.offset_m + wall.deviation.yaw_rad * frame.normal.head<2>().dot(Eigen::Vector2d(-arm.y(), arm.x()));
+  return std::min(std::abs(off_m), kMostLonger_m);
 }
 
 // A face of one side of a wall: from where to where it is planned along the wall, and may have been built: a wall that is off meets the
@@ -51,7 +56,7 @@ std::vector<FaceRange> FacesOfSide(const AGraph& plan, const Match& m, const Map
     const bool forth = along.dot(face.end - face.start) > 0;
     const Eigen::Vector2d &low = forth ? face.start : face.end, &high = forth ? face.end : face.start;
     const double from = along.dot(low), to = along.dot(high);
-    out.push_back({SurfaceId(i), from, to, from - Off_m(wall, frame, low), to + Off_m(wall, frame, high)});
+    out.push_back({SurfaceId(i), from, to, from - Longer_m(wall, frame, low), to + Longer_m(wall, frame, high)});
   }
   return out;
 }
@@ -90,14 +95,18 @@ std::vector<FaceRange> SharesOfFaces(const SGraph& map, const AGraph& plan, cons
   return faces;
 }
 
-// From where to where along its wall the match's patch reaches, within the wall's faces: it may go on along the next wall.
+// Where along itself a wall was seen: between the ends of its patches, and which steps of it.
+struct Span {
+  double from = 1e300, to = -1e300;
+  std::set<int> steps;
+};
+
+// Where along its wall the match's patch lies, within the wall's faces: it may go on along the next wall.
 void AddSpan(const SGraph& map, const AGraph& plan, const Match& m, const WallEstimate& wall, const WallFrame& frame,
-             const Eigen::Isometry3d& T_plan_map, std::map<WallId, std::pair<double, double>>& spans) {
+             const Eigen::Isometry3d& T_plan_map, Span& span) {
   const MapSurface& patch = map.surfaces[m.map_surface];
-  auto& [from, to] = spans.try_emplace(wall.wall, 1e300, -1e300).first->second;
-  const auto along = [&](const Eigen::Vector2d& at) {
-    return (at - frame.pivot.head<2>()).dot(Eigen::Vector2d(-frame.normal.y(), frame.normal.x()));
-  };
+  const Eigen::Vector2d direction(-frame.normal.y(), frame.normal.x());
+  const auto along = [&](const Eigen::Vector2d& at) { return (at - frame.pivot.head<2>()).dot(direction); };
   double face_from = 1e300, face_to = -1e300;
   for (const FaceRange& f : FacesOfSide(plan, m, patch, T_plan_map.translation().z(), wall, frame)) {
     const Surface& face = plan.surfaces[f.face.index()];
@@ -107,8 +116,12 @@ void AddSpan(const SGraph& map, const AGraph& plan, const Match& m, const WallEs
   if (face_from > face_to) return;
   for (const Eigen::Vector2d& end : {patch.start, patch.end}) {
     const double u = std::clamp(along((T_plan_map * Eigen::Vector3d(end.x(), end.y(), 0)).head<2>()), face_from, face_to);
-    from = std::min(from, u);
-    to = std::max(to, u);
+    span.from = std::min(span.from, u);
+    span.to = std::max(span.to, u);
+  }
+  for (const double at : SeenAt(patch, direction, T_plan_map)) {
+    const double u = at - direction.dot(frame.pivot.head<2>());
+    if (u > face_from && u < face_to) span.steps.insert(static_cast<int>(std::floor(u / kStep_m)));
   }
 }
 
@@ -122,7 +135,7 @@ WallEstimate& EstimateOf(WallId wall, std::vector<WallEstimate>& walls) {
 void CountSeen(const SGraph& map, const AGraph& plan, const std::vector<WallFrame>& frames, const std::vector<Match>& matches,
                const Eigen::Isometry3d& T_plan_map, std::vector<WallEstimate>& walls) {
   std::map<SurfaceId, SeenSurface> seen;
-  std::map<WallId, std::pair<double, double>> spans;
+  std::map<WallId, Span> spans;
   for (const Match& m : matches) {
     if (!m.plan_surface.valid()) continue;
     const double counts = m.mistaken.empty() ? 1.0 : ShareThatCounts(map, m);
@@ -133,7 +146,7 @@ void CountSeen(const SGraph& map, const AGraph& plan, const std::vector<WallFram
       s.num_points += counts * f.share * map.surfaces[m.map_surface].num_points;
       s.observed_m2 += counts * f.share * map.surfaces[m.map_surface].area_m2;
     }
-    AddSpan(map, plan, m, wall, frames[wall.wall.index()], T_plan_map, spans);
+    AddSpan(map, plan, m, wall, frames[wall.wall.index()], T_plan_map, spans[wall.wall]);
   }
   for (const auto& [id, s] : seen) {
     const WallId wall = plan.surfaces[id.index()].wall;
@@ -141,7 +154,9 @@ void CountSeen(const SGraph& map, const AGraph& plan, const std::vector<WallFram
     e.seen.push_back(s);
     e.num_points += s.num_points;
     e.observed_m2 += s.observed_m2;
-    e.span_m = spans[wall].second - spans[wall].first;
+    const Span& span = spans[wall];
+    e.span_m = span.to - span.from;
+    e.seen_m = kStep_m * static_cast<double>(span.steps.size());
   }
 }
 

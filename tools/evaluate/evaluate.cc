@@ -54,6 +54,7 @@ std::string EvaluateOptions::Check() const {
                                      positive("max_truth_gap_s", max_truth_gap_s), positive("min_points", min_points)}) {
     if (!message.empty()) return message;
   }
+  if (!(min_seen_m2 >= 0)) return fmt::format("EvaluateOptions.min_seen_m2 = {}; must be >= 0", min_seen_m2);
   return {};
 }
 
@@ -83,7 +84,7 @@ Evaluation Evaluate(const Run& run, const Truth& truth, const EvaluateOptions& o
   out.smoothed = ComparePoses(Comparable(run.smoothed, options), trajectory, options.max_truth_gap_s);
   out.has_walls = truth.has_walls;
   if (!truth.has_walls) return out;
-  out.walls = CompareWalls(truth, run.deviations, options.min_points);
+  out.walls = CompareWalls(truth, run.deviations, options.min_points, options.min_seen_m2);
   out.missing = CompareMissing(truth, run.deviations, options.min_points, out.localized_scans > 0);
   out.unplanned = CompareUnplanned(truth, run.deviations, options.min_points, out.localized_scans > 0);
   out.doorways = CompareDoorways(truth, run.deviations, options.min_points, out.localized_scans > 0);

@@ -20,11 +20,14 @@ Json ErrorsToJson(const PoseErrors& e) {
           {"ate_mean_m", e.mean_m},
           {"ate_max_m", e.max_m},
           {"yaw_rmse_deg", Degrees(e.yaw_rmse_rad)},
-          {"yaw_max_deg", Degrees(e.yaw_max_rad)}};
+          {"yaw_max_deg", Degrees(e.yaw_max_rad)},
+          {"tilt_rmse_deg", Degrees(e.tilt_rmse_rad)},
+          {"tilt_max_deg", Degrees(e.tilt_max_rad)}};
 }
 
 Json WallToJson(const WallResult& w) {
   Json out;
+  out["wall_id"] = w.wall.valid() ? Json(w.wall.value) : Json(nullptr);
   out["wall_guid"] = w.guid;
   if (!w.name.empty()) out["wall_name"] = w.name;
   out["outcome"] = WallOutcomeName(w.outcome);
@@ -43,10 +46,19 @@ Json WallToJson(const WallResult& w) {
   return out;
 }
 
+// What people know the wall by; plans other than IFC have neither names nor guids.
+std::string WallLabel(const WallResult& w) {
+  if (!w.name.empty()) return w.name;
+  return w.guid.empty() && w.wall.valid() ? fmt::format("wall {}", w.wall.value) : w.guid;
+}
+
 std::string PoseLine(const char* name, const PoseErrors& e) {
   if (e.count == 0) return fmt::format("{:<22} none has a truth\n", name);
-  return fmt::format("{:<22} ATE rmse {:.3f} m, mean {:.3f} m, max {:.3f} m; yaw rmse {:.2f} deg, max {:.2f} deg ({} poses)\n", name,
-                     e.rmse_m, e.mean_m, e.max_m, Degrees(e.yaw_rmse_rad), Degrees(e.yaw_max_rad), e.count);
+  return fmt::format(
+      "{:<22} ATE rmse {:.3f} m, mean {:.3f} m, max {:.3f} m; yaw rmse {:.2f} deg, max {:.2f} deg; tilt rmse {:.2f} deg, "
+      "max {:.2f} deg ({} poses)\n",
+      name, e.rmse_m, e.mean_m, e.max_m, Degrees(e.yaw_rmse_rad), Degrees(e.yaw_max_rad), Degrees(e.tilt_rmse_rad), Degrees(e.tilt_max_rad),
+      e.count);
 }
 
 std::string ChangesLine(const char* name, const std::vector<ChangeResult>& results) {
@@ -64,6 +76,7 @@ void WriteChanges(const std::string& name, const std::vector<ChangeResult>& resu
   Json& list = out[name] = Json::array();
   for (const ChangeResult& r : results) {
     Json entry = {{"outcome", WallOutcomeName(r.outcome)}};
+    if (r.wall.valid()) entry["wall_id"] = r.wall.value;
     if (!r.guid.empty()) entry["wall_guid"] = r.guid;
     for (const Eigen::Vector2d& p : r.polygon) entry["polygon"].push_back({p.x(), p.y()});
     list.push_back(entry);
@@ -94,7 +107,10 @@ void WriteDoorways(const DoorwayScore& score, std::string& out) {
 }
 
 Json DoorwayToJson(const DoorwayResult& r) {
-  Json out = {{"id", r.id.value}, {"guid", r.guid}, {"outcome", WallOutcomeName(r.outcome)}, {"true_shift_m", r.true_shift_m},
+  Json out = {{"id", r.id.value},
+              {"guid", r.guid},
+              {"outcome", WallOutcomeName(r.outcome)},
+              {"true_shift_m", r.true_shift_m},
               {"true_width_deviation_m", r.true_width_deviation_m}};
   if (r.measured) {
     out["shift_m"] = r.shift_m;
@@ -137,7 +153,7 @@ void WriteWalls(const Evaluation& e, std::string& out) {
       return show ? fmt::format("{:+.{}f}", value, digits) : std::string("-");
     };
     const std::string measured = reported ? fmt::format("{:+.3f} +- {:.3f}", w.measured_translation_m, w.sigma_translation_m) : "-";
-    fmt::format_to(write, "{:<24} {:>7} {:<10} {:>+10.3f} {:>20} {:>10} {:>+9.2f} {:>9} {:>9}\n", w.name.empty() ? w.guid : w.name,
+    fmt::format_to(write, "{:<24} {:>7} {:<10} {:>+10.3f} {:>20} {:>10} {:>+9.2f} {:>9} {:>9}\n", WallLabel(w),
                    reported ? fmt::format("{}", w.surface.value) : "-", WallOutcomeName(w.outcome), w.true_translation_m, measured,
                    found ? fmt::format("{:.3f}", w.error_translation_m) : "-", w.true_rotation_deg,
                    number(reported, 2, w.measured_rotation_deg), found ? fmt::format("{:.2f}", w.error_rotation_deg) : "-");
@@ -176,6 +192,7 @@ std::string EvaluationToJson(const Evaluation& e) {
   out["in_plane"] = e.in_plane;
   out["ate_rmse_m"] = e.online.count > 0 ? Json(e.online.rmse_m) : Json(nullptr);
   out["yaw_rmse_deg"] = e.online.count > 0 ? Json(Degrees(e.online.yaw_rmse_rad)) : Json(nullptr);
+  out["tilt_rmse_deg"] = e.online.count > 0 ? Json(Degrees(e.online.tilt_rmse_rad)) : Json(nullptr);
   out["walls_found"] = e.CountWalls(WallOutcome::kFound);
   out["walls_missed"] = e.CountWalls(WallOutcome::kMissed);
   out["walls_inaccurate"] = e.CountWalls(WallOutcome::kInaccurate);

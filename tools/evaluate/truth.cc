@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "schema/files.h"
 
@@ -23,16 +24,32 @@ std::vector<Eigen::Vector2d> ParsePolygon(const Json& json) {
   return polygon;
 }
 
+WallId ParseWallId(const Json& json) { return json.contains("wall_id") ? WallId(json.at("wall_id").get<uint32_t>()) : WallId(); }
+
 WallTruth ParseWall(const Json& json) {
   WallTruth wall;
   json.at("wall_guid").get_to(wall.guid);
   wall.name = json.value("wall_name", "");
+  wall.wall = ParseWallId(json);
   json.at("translation_m").get_to(wall.translation_m);
   json.at("rotation_deg").get_to(wall.rotation_deg);
   for (const Json& s : json.at("surfaces")) {
     wall.surfaces[SurfaceId(s.at("id").get<uint32_t>())] = {s.at("translation_m").get<double>(), s.at("rotation_deg").get<double>()};
   }
   return wall;
+}
+
+// Numbers by surface id. Empty if fine, else what is wrong.
+std::string ParseOfSurfaces(const Json& root, const char* name, std::map<SurfaceId, double>& out) {
+  const Json object = root.value(name, Json::object());
+  for (const auto& [key, number] : object.items()) {
+    uint32_t id = 0;
+    const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), id);
+    if (error != std::errc() || end != key.data() + key.size())
+      return fmt::format("`{}` has the key `{}`; keys are surface ids", name, key);
+    out[SurfaceId(id)] = number.get<double>();
+  }
+  return {};
 }
 
 }  // namespace
@@ -53,7 +70,9 @@ Expected<Truth> ParseTruth(const std::string& json, const std::string& source) {
       return Fail(ErrorCode::kNotARecording, fmt::format("`{}`: the simulation was broken off; simulate it again", source));
     if (const auto plan = root.find("plan"); plan != root.end()) truth.plan_source_sha256 = plan->value("sha256", "");
     for (const Json& wall : root.at("walls")) truth.walls.push_back(ParseWall(wall));
-    for (const Json& m : root.value("missing", Json::array())) truth.missing.push_back({m.at("wall_guid"), m.at("rays_through")});
+    for (const Json& m : root.value("missing", Json::array())) {
+      truth.missing.push_back({m.at("wall_guid"), m.at("rays_through"), ParseWallId(m)});
+    }
     for (const Json& u : root.value("unplanned", Json::array())) {
       truth.unplanned.push_back({ParsePolygon(u.at("polygon")), u.at("points")});
       if (truth.unplanned.back().polygon.size() < 3)
@@ -63,14 +82,10 @@ Expected<Truth> ParseTruth(const std::string& json, const std::string& source) {
       truth.doorways.push_back(
           {DoorwayId(d.at("id").get<uint32_t>()), d.value("guid", ""), d.at("shift_m"), d.at("width_deviation_m"), d.at("rays_through")});
     }
-    const Json points = root.value("surface_points", Json::object());
-    for (const auto& [key, count] : points.items()) {
-      uint32_t id = 0;
-      const auto [end, error] = std::from_chars(key.data(), key.data() + key.size(), id);
-      if (error != std::errc() || end != key.data() + key.size()) {
-        return Fail(ErrorCode::kNotARecording, fmt::format("`{}`: `surface_points` has the key `{}`; keys are surface ids", source, key));
-      }
-      truth.surface_points[SurfaceId(id)] = count.get<double>();
+    for (const auto& [name, of_surfaces] :
+         {std::pair("surface_points", &truth.surface_points), std::pair("surface_seen_m2", &truth.surface_seen_m2)}) {
+      if (const std::string fault = ParseOfSurfaces(root, name, *of_surfaces); !fault.empty())
+        return Fail(ErrorCode::kNotARecording, fmt::format("`{}`: {}", source, fault));
     }
     return truth;
   } catch (const Json::exception& e) {

@@ -23,6 +23,7 @@ struct WallTruth {
   double translation_m = 0, rotation_deg = 0;
   std::map<SurfaceId, SurfaceTruth> surfaces;
   std::string name = {};  // empty: not recorded
+  WallId wall = {};       // in the plan; invalid: not recorded
   [[nodiscard]] bool deviates() const;
 };
 
@@ -30,6 +31,7 @@ struct WallTruth {
 struct MissingTruth {
   std::string guid;
   double rays_through = 0;  // that went right through its place
+  WallId wall = {};         // in the plan; invalid: not recorded
 };
 
 // A wall that was built and is not in the plan.
@@ -48,14 +50,15 @@ struct DoorwayTruth {
 };
 
 struct Truth {
-  runtime::Trajectory trajectory;             // sensor in the plan frame
-  std::vector<WallTruth> walls;               // in the file's order; walls that are not listed are as planned
+  runtime::Trajectory trajectory;  // sensor in the plan frame
+  std::vector<WallTruth> walls;    // in the file's order; walls that are not listed are as planned
   std::vector<MissingTruth> missing;
   std::vector<UnplannedTruth> unplanned;
-  std::vector<DoorwayTruth> doorways;         // all that may be judged; empty: not recorded
-  std::map<SurfaceId, double> surface_points; // returns that hit each surface; empty: not recorded
-  std::string plan_source_sha256;             // of the plan that the recording was simulated in; empty: not recorded
-  bool has_walls = false;                     // false: the recording has no truth.json
+  std::vector<DoorwayTruth> doorways;           // all that may be judged; empty: not recorded
+  std::map<SurfaceId, double> surface_points;   // returns that hit each surface; empty: not recorded
+  std::map<SurfaceId, double> surface_seen_m2;  // what they came from of it, in cells of 10 cm; empty: not recorded
+  std::string plan_source_sha256;               // of the plan that the recording was simulated in; empty: not recorded
+  bool has_walls = false;                       // false: the recording has no truth.json
 };
 
 // Errors: kNotARecording, with the key.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 #include <tuple>
 
 #include "schema/polygon.h"
@@ -42,18 +41,27 @@ double CoveredBy(const Polygon& polygon, const std::vector<Polygon>& others) {
 }  // namespace
 
 std::vector<ChangeResult> CompareMissing(const Truth& truth, const Deviations& reported, double min_points, bool localized) {
-  std::set<std::string> called_missing;
+  std::vector<const SurfaceEntry*> called_missing;
   for (const SurfaceEntry& s : reported.surfaces) {
-    if (s.status == "missing") called_missing.insert(s.wall_guid);
+    if (s.status == "missing") called_missing.push_back(&s);
   }
+  const auto take = [&](WallId wall, const std::string& guid, SurfaceId alone) {
+    return std::erase_if(called_missing,
+                         [&](const SurfaceEntry* s) { return (alone.valid() && s->id == alone) || IsOfWall(*s, wall, guid); }) > 0;
+  };
   std::vector<ChangeResult> results;
   for (const MissingTruth& wall : truth.missing) {
     const WallOutcome otherwise = localized && wall.rays_through >= min_points ? WallOutcome::kMissed : WallOutcome::kUnobserved;
-    results.push_back({wall.guid, called_missing.erase(wall.guid) > 0 ? WallOutcome::kFound : otherwise, {}});
+    results.push_back({wall.guid, take(wall.wall, wall.guid, SurfaceId()) ? WallOutcome::kFound : otherwise, {}, wall.wall});
   }
-  for (const std::string& guid : called_missing) results.push_back({guid, WallOutcome::kFalse, {}});
-  std::sort(results.begin(), results.end(),
-            [](const ChangeResult& a, const ChangeResult& b) { return std::tie(a.outcome, a.guid) < std::tie(b.outcome, b.guid); });
+  while (!called_missing.empty()) {
+    const SurfaceEntry& s = *called_missing.front();
+    results.push_back({s.wall_guid, WallOutcome::kFalse, {}, s.wall});
+    take(s.wall, s.wall_guid, s.id);
+  }
+  std::sort(results.begin(), results.end(), [](const ChangeResult& a, const ChangeResult& b) {
+    return std::tie(a.outcome, a.guid, a.wall) < std::tie(b.outcome, b.guid, b.wall);
+  });
   return results;
 }
 

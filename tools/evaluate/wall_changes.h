@@ -15,10 +15,12 @@ namespace plumb::tools {
 struct ChangeResult {
   std::string guid;  // missing walls only
   WallOutcome outcome = WallOutcome::kMissed;
-  std::vector<Eigen::Vector2d> polygon;  // unplanned walls only: of the truth, of a false one as reported
+  std::vector<Eigen::Vector2d> polygon = {};  // unplanned walls only: of the truth, of a false one as reported
+  WallId wall = {};                           // missing walls only; invalid: not recorded
 };
 
-// A missing wall is found if a surface of it is reported `missing`. By outcome, then by guid.
+// A missing wall is found if a surface of it is reported `missing`. Walls are told apart as by CompareWalls(). By outcome, then by guid and
+// id.
 [[nodiscard]] std::vector<ChangeResult> CompareMissing(const Truth& truth, const Deviations& reported, double min_points, bool localized);
 
 // An unplanned wall is found if reported polygons cover at least half of its length within 10 cm; a reported one of which less than half

@@ -85,6 +85,7 @@ void AddEvaluate(CLI::App& app, Session& session) {
   sub->add_option("--wrong-fix-distance", flags->options.wrong_fix_m, "a pose further off while localized is a wrong fix, m");
   sub->add_option("--wrong-fix-angle", flags->wrong_fix_deg, "so is one turned by more than this, deg");
   sub->add_option("--min-points", flags->options.min_points, "a wall with fewer returns on each side was not observed");
+  sub->add_option("--min-seen", flags->options.min_seen_m2, "nor was one of which they came from less of each side, m2");
   sub->add_option("--require-localized-within", flags->within_s, "finding unless localized after this long, and never wrongly, s");
   sub->add_option("--require-ate", flags->ate_m, "finding unless the ATE is below this, m");
   sub->add_option("--require-deviations", flags->deviation_m,

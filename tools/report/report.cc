@@ -79,7 +79,16 @@ const TryRow* OpenTry(const Run& run) {
   return found || !run.smoothed.empty() || run.tries.empty() ? nullptr : &run.tries.back();
 }
 
-std::string Figure(const AGraph& plan, StoreyId storey, const Run& run, const std::vector<WallRow>& rows, double limit_m) {
+// A wall that goes up through several storeys is judged as one. Of one that nobody visited, only what was seen of it is shown as judged.
+Deviations WhereSeen(const AGraph& plan, StoreyId storey, Deviations deviations) {
+  for (SurfaceEntry& s : deviations.surfaces) {
+    if (plan.surfaces[s.id.index()].storey == storey && s.points <= 0) s.status = "unobserved";
+  }
+  return deviations;
+}
+
+std::string Figure(const AGraph& plan, StoreyId storey, const Run& run, const Deviations& deviations, const std::vector<WallRow>& rows,
+                   double limit_m) {
   const Sheet sheet = SheetOf(plan, storey);
   const TryRow* open = OpenTry(run);
   return fmt::format(
@@ -87,9 +96,10 @@ std::string Figure(const AGraph& plan, StoreyId storey, const Run& run, const st
       "<rect class=\"paper\" width=\"100%\" height=\"100%\"/>\n{}<g class=\"layer-surfaces\">\n{}</g>\n<g class=\"layer-way\">\n{}</g>\n"
       "<g class=\"layer-rooms\">\n{}</g>\n<g class=\"layer-surfaces\">\n{}</g>\n{}</svg></figure>\n",
       EscapeXml(plan.storeys[storey.index()].name), Decimal(sheet.width()), Decimal(sheet.height()), DrawFloorPlan(plan, storey, sheet),
-      DrawSurfaces(plan, storey, run.deviations, limit_m, sheet) + DrawUnplanned(plan, storey, run.deviations, sheet),
+      DrawSurfaces(plan, storey, deviations, limit_m, sheet) + DrawUnplanned(plan, storey, deviations, sheet),
       DrawTrajectory(plan, storey, run, sheet) + (open ? DrawPlaces(plan, storey, *open, sheet) : ""), DrawRoomLabels(plan, storey, sheet),
-      DrawWallNumbers(plan, storey, rows, sheet) + DrawDoorways(plan, storey, run.deviations, sheet), DrawScaleBar(sheet, 30, sheet.height() - 45));
+      DrawWallNumbers(plan, storey, rows, sheet) + DrawDoorways(plan, storey, deviations, sheet),
+      DrawScaleBar(sheet, 30, sheet.height() - 45));
 }
 
 // Storeys that the robot was or may be on; all of them where nothing is known.
@@ -112,7 +122,11 @@ std::string Figures(const AGraph& plan, const Run& run, const std::vector<WallRo
     const StoreyId storey(i);
     const bool has_walls = std::any_of(plan.walls.begin(), plan.walls.end(), [&](const Wall& w) { return w.storey == storey; });
     if (!has_walls) continue;
-    (visited.contains(storey) ? out : others) += Figure(plan, storey, run, rows, limit_m);
+    if (visited.contains(storey)) {
+      out += Figure(plan, storey, run, run.deviations, rows, limit_m);
+    } else {
+      others += Figure(plan, storey, run, WhereSeen(plan, storey, run.deviations), rows, limit_m);
+    }
   }
   if (!others.empty())
     out += fmt::format("<details><summary>{}</summary>\n{}</details>\n",
@@ -131,9 +145,10 @@ std::string WallRowHtml(const AGraph& plan, const WallRow& row) {
   const Wall& wall = plan.walls[row.wall.index()];
   const SurfaceEntry& s = *row.surface;
   const std::string storey = wall.storey.valid() ? EscapeXml(plan.storeys[wall.storey.index()].name) : "";
-  const std::string chip =
-      row.number > 0 ? fmt::format("<span class=\"chip\" style=\"background:{}\">{}</span>",
-                                   s.status == "missing" ? kMissingColor : DeviationColor(s.translation_m, 0.01), row.number) : "";
+  const std::string chip = row.number > 0
+                               ? fmt::format("<span class=\"chip\" style=\"background:{}\">{}</span>",
+                                             s.status == "missing" ? kMissingColor : DeviationColor(s.translation_m, 0.01), row.number)
+                               : "";
   if (s.status == "missing") {
     return fmt::format(
         "<tr class=\"off\"><td class=\"t\">{}</td><td class=\"t\">{}<small>{}</small></td><td class=\"t\">{}</td><td class=\"t\">missing"
@@ -261,9 +276,11 @@ Expected<std::string> RunToHtml(const AGraph& plan, const Run& run, const RunInf
       "<p class=\"sub\">where the robot was, and how far each wall stands from where the plan has "
       "it</p>\n{5}{6}<h2>Plan</h2>\n{7}{8}{9}{10}"
       "<script>\n{11}</script>\n</body></html>\n",
-      title, FloorPlanStyle(), DeviationStyle() + DoorwayStyle(), TrajectoryStyle() + PlaceStyle(), PageStyle(), Tiles(info, run.deviations, rows),
-      Notes(info, run.deviations), Figures(plan, run, rows) + (OpenTry(run) ? PlacesHtml(*OpenTry(run)) : ""),
-      WallTable(plan, rows) + DoorwayTable(plan, run.deviations) + UnplannedTable(plan, run.deviations), RoomTable(plan, run.deviations), Footer(info), PageScript());
+      title, FloorPlanStyle(), DeviationStyle() + DoorwayStyle(), TrajectoryStyle() + PlaceStyle(), PageStyle(),
+      Tiles(info, run.deviations, rows), Notes(info, run.deviations),
+      Figures(plan, run, rows) + (OpenTry(run) ? PlacesHtml(*OpenTry(run)) : ""),
+      WallTable(plan, rows) + DoorwayTable(plan, run.deviations) + UnplannedTable(plan, run.deviations), RoomTable(plan, run.deviations),
+      Footer(info), PageScript());
 }
 
 }  // namespace plumb::tools

@@ -55,6 +55,7 @@ SurfaceEntry ParseSurface(const Json& json) {
   s.id = SurfaceId(json.at("id").get<uint32_t>());
   json.at("status").get_to(s.status);
   Get(json, "wall_guid", s.wall_guid);
+  if (const auto wall = json.find("wall_id"); wall != json.end() && !wall->is_null()) s.wall = WallId(wall->get<uint32_t>());
   Get(json, "translation_m", s.translation_m);
   Get(json, "sigma_translation_m", s.sigma_translation_m);
   Get(json, "rotation_deg", s.rotation_deg);

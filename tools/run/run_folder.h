@@ -34,6 +34,7 @@ struct SurfaceEntry {
   std::string wall_guid, status;  // as_planned | deviated | missing | unobserved
   double translation_m = 0, sigma_translation_m = 0, rotation_deg = 0, sigma_rotation_deg = 0, tilt_deg = 0;
   double p_deviated = 0, observed_m2 = 0, points = 0;
+  WallId wall = {};  // in the plan; invalid: none, or an older run, which does not tell
 };
 
 struct RoomEntry {
@@ -52,8 +53,8 @@ struct UnplannedEntry {
 // Of a doorway: what is not known is 0.
 struct DoorwayEntry {
   DoorwayId id;
-  std::string guid, status;  // as_planned | deviated | missing (walled up) | unobserved
-  double width_m = 0;        // planned
+  std::string guid, status;               // as_planned | deviated | missing (walled up) | unobserved
+  double width_m = 0;                     // planned
   double shift_m = 0, sigma_shift_m = 0;  // along its wall, + to the left of who passes from room_a to room_b
   double width_deviation_m = 0, sigma_width_m = 0, p_deviated = 0;
 };

@@ -12,6 +12,7 @@
 #include "schema/files.h"
 #include "tools/simulate/as_built.h"
 #include "tools/simulate/clutter.h"
+#include "tools/simulate/seen_area.h"
 #include "tools/simulate/surface_counter.h"
 #include "tools/simulate/sweep.h"
 #include "tools/simulate/tour.h"
@@ -97,6 +98,7 @@ class Recorder {
     summary.points = points_;
     summary.surface_points = surface_points_;
     summary.surface_scans = surface_scans_;
+    summary.surface_seen_m2 = seen_area_.PerSurface_m2(plan_.surfaces.size());
     summary.missing = missing_;
     summary.unplanned = unplanned_;
     summary.doorways = doorways_;
@@ -109,8 +111,10 @@ class Recorder {
     const auto pose = [this](double time_s) { return drive_.PoseAt(time_s); };
     const Sweep sweep = lidar_.Take(stamp_s - options_.start_stamp_s, stamp_s, pose, random);
     std::vector<uint32_t> seen(plan_.surfaces.size(), 0);
+    std::vector<SurfaceHit> hits;
     for (const Echo& echo : sweep.echoes) {
-      if (const SurfaceId id = counter_.SurfaceOf(echo); id.valid()) ++seen[id.index()];
+      hits.push_back(counter_.HitOf(echo));
+      if (hits.back().surface.valid()) ++seen[hits.back().surface.index()];
     }
     const Changes changes = CountChanges(sweep, pose(stamp_s - options_.start_stamp_s).translation());
     const Expected<void> written = runtime::WritePcd(sweep.scan, (folder / "scans" / runtime::ScanFileName(stamp_s)).string());
@@ -120,6 +124,7 @@ class Recorder {
       surface_points_[s] += seen[s];
       surface_scans_[s] += seen[s] >= kMinScanPoints ? 1 : 0;
     }
+    seen_area_.Add(hits);
     for (size_t w = 0; w < missing_.size(); ++w) missing_[w].rays_through += changes.rays_through[w];
     for (size_t w = 0; w < unplanned_.size(); ++w) unplanned_[w].points += changes.points[w];
     for (size_t d = 0; d < doorways_.size(); ++d) doorways_[d].rays_through += changes.rays_in[d];
@@ -163,6 +168,7 @@ class Recorder {
   std::optional<Error> error_;
   std::vector<uint64_t> surface_points_;
   std::vector<uint32_t> surface_scans_;
+  SeenArea seen_area_;
   std::vector<MissingWall> missing_;
   std::vector<UnplannedWall> unplanned_;
   std::vector<BuiltDoorway> doorways_;

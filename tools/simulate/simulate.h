@@ -90,7 +90,8 @@ struct SimulateSummary {
   RoomId start_room;
   std::vector<RoomId> visited, not_visited;   // rooms of the storey
   std::vector<uint64_t> surface_points;       // per plan surface: returns from it,
-  std::vector<uint32_t> surface_scans;        // and scans with at least kMinScanPoints of them
+  std::vector<uint32_t> surface_scans;        // scans with at least kMinScanPoints of them,
+  std::vector<double> surface_seen_m2;        // and how much of it they came from (seen_area.h)
   std::vector<WallDisplacement> walls;
   std::vector<MissingWall> missing;
   std::vector<UnplannedWall> unplanned;

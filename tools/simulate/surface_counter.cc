@@ -7,9 +7,9 @@
 namespace plumb::tools {
 namespace {
 
-constexpr double kOnPlane_m = 0.02;      // faces may bow or step this much
-constexpr double kBeyondEnd_m = 0.8;     // walls are lengthened to meet others that moved
-constexpr double kFacing_cos = 0.9;      // reveals end at a face, but are none of it
+constexpr double kOnPlane_m = 0.02;   // faces may bow or step this much
+constexpr double kBeyondEnd_m = 0.8;  // walls are lengthened to meet others that moved
+constexpr double kFacing_cos = 0.9;   // reveals end at a face, but are none of it
 
 // How far p is from the surface's stretch of its line, along it; negative inside.
 double BeyondEnd_m(const Surface& s, const Eigen::Vector2d& p) {
@@ -41,7 +41,7 @@ SurfaceCounter::SurfaceCounter(const AGraph& plan, const AsBuilt& built) : plan_
   }
 }
 
-SurfaceId SurfaceCounter::SurfaceOf(const Echo& echo) const {
+SurfaceHit SurfaceCounter::HitOf(const Echo& echo) const {
   const Triangle& triangle = built_.house.mesh.triangles[echo.triangle];
   const Element& element = built_.house.elements[triangle.element];
   if (!IsWallBody(element)) return {};
@@ -50,7 +50,7 @@ SurfaceId SurfaceCounter::SurfaceOf(const Echo& echo) const {
   const Eigen::Vector2d p = built_.motions[wall].inverse() * built.head<2>();  // where the plan has this spot
   Eigen::Vector3d normal = NormalOf(built_.house.mesh, triangle);
   normal.head<2>() = built_.motions[wall].linear().transpose() * normal.head<2>().eval();
-  SurfaceId best;
+  SurfaceHit best;
   double best_m = kBeyondEnd_m;
   for (const SurfaceId id : of_wall_[wall]) {
     const Surface& s = plan_.surfaces[id.index()];
@@ -58,7 +58,7 @@ SurfaceId SurfaceCounter::SurfaceOf(const Echo& echo) const {
     if (!LiesAlong(s, p, normal)) continue;
     const double beyond_m = std::max(0.0, BeyondEnd_m(s, p));
     if (beyond_m < best_m) {
-      best = id;
+      best = {id, (p - s.start).dot((s.end - s.start).normalized()), built.z()};
       best_m = beyond_m;
     }
   }

@@ -8,12 +8,18 @@
 
 namespace plumb::tools {
 
+// Where a return came from: the surface, none if from something else than a wall's face or from a face that bounds nothing, and where the
+// plan has the place, along the surface's line from its start and up from z = 0.
+struct SurfaceHit {
+  SurfaceId surface;
+  double along_m = 0, up_m = 0;
+};
+
 class SurfaceCounter {
  public:
   SurfaceCounter(const AGraph& plan, const AsBuilt& built);
 
-  // The surface that the echo came from; none if it was something else than a wall's face, or a face that bounds nothing.
-  [[nodiscard]] SurfaceId SurfaceOf(const Echo& echo) const;
+  [[nodiscard]] SurfaceHit HitOf(const Echo& echo) const;
 
  private:
   const AGraph& plan_;

@@ -96,12 +96,16 @@ std::string TruthToJson(const AGraph& plan, const SimulateOptions& options, cons
                {"missing", Json::array()},
                {"unplanned", Json::array()},
                {"doorways", Json::array()},
-               {"surface_points", Json::object()}};
+               {"surface_points", Json::object()},
+               {"surface_seen_m2", Json::object()}};
   for (const WallDisplacement& w : summary.walls) json["walls"].push_back(ToJson(plan, w));
   for (const MissingWall& m : summary.missing) json["missing"].push_back(ToJson(plan, m));
   for (const UnplannedWall& w : summary.unplanned) json["unplanned"].push_back(ToJson(w));
   for (const BuiltDoorway& d : summary.doorways) json["doorways"].push_back(ToJson(plan, d));
   for (size_t i = 0; i < summary.surface_points.size(); ++i) json["surface_points"][std::to_string(i)] = summary.surface_points[i];
+  for (size_t i = 0; i < summary.surface_seen_m2.size(); ++i) {
+    json["surface_seen_m2"][std::to_string(i)] = Rounded(summary.surface_seen_m2[i]);
+  }
   json["drive"] = {{"duration_s", Rounded(summary.duration_s)},
                    {"path_m", Rounded(summary.path_m)},
                    {"robot_radius_m", summary.robot_radius_m},

@@ -254,6 +254,40 @@ TEST(MatchSurfaces, FindsAWallFarOffByWhatIsSeenOfAllItsFaces) {
   EXPECT_EQ(wall_of(parted), whole.surfaces[9].wall);
 }
 
+// The wall's other face stands as planned beyond the end of what is seen, nearer to it than the margin about faces.
+TEST(MatchSurfaces, FindsAWallFarOffWhateverIsSeenBesideIt) {
+  const AGraph whole = test::MakeHouse();
+  AGraph parted = whole;
+  const Eigen::Vector2d cut =
+      whole.surfaces[9].start + 4.9 / whole.surfaces[9].length_m() * (whole.surfaces[9].end - whole.surfaces[9].start);
+  const bool forth = whole.surfaces[9].end.y() > whole.surfaces[9].start.y();
+  ASSERT_TRUE(forth);
+  parted.surfaces[9].end = cut;
+  parted.surfaces.push_back(whole.surfaces[9]);
+  parted.surfaces.back().start = cut;
+  Scene scene;
+  const Eigen::Vector2d start(9.58, 1.2), end(9.58, 4.8);
+  const uint32_t patch = scene.Add(start, end, 0.1, 2.5);
+  scene.map.surfaces[patch].observations.push_back(scene.map.surfaces[patch].observations.front());
+  scene.See({6, 3, 0.6}, start, end, 0.1, 2.5);
+  for (int i = 0; i < 5; ++i) scene.See({6, 5.4, 0.6}, {9, 5.15}, {9, 5.75}, 0.4, 2.2);
+  EXPECT_EQ(scene.Of(parted, patch), SurfaceId(9));
+}
+
+// A parapet is seen through a pane, higher and farther off.
+TEST(MatchSurfaces, APaneIsTheWallWhereItIsPlannedOfGlass) {
+  AGraph house = test::MakeHouse();
+  Scene scene;
+  const uint32_t pane = scene.Add({9, 0.5}, {9, 5.5}, 0.2, 1.2), parapet = scene.Add({9.24, 0.5}, {9.24, 5.5}, 0.2, 2.4);
+  EXPECT_EQ(scene.Of(house, parapet), SurfaceId(9));
+  EXPECT_FALSE(scene.Of(house, pane).valid());
+  for (Element& e : house.elements) {
+    if (e.wall == house.surfaces[9].wall) e.material = Material::kGlass;
+  }
+  EXPECT_EQ(scene.Of(house, pane), SurfaceId(9));
+  EXPECT_FALSE(scene.Of(house, parapet).valid());
+}
+
 TEST(MatchSurfaces, FindsNoWallFarOffWhereTwoStandForIt) {
   const AGraph house = test::MakeHouse();
   Scene scene;

@@ -45,6 +45,21 @@ TEST(Mixture, PriorInformationRunsFromTightToWide) {
 }
 
 // Seen at an end, 2 m from the middle, 15 cm off: it moved or it turned.
+TEST(Mixture, APriorThatFreesTheOtherOfTwoIsAnotherOne) {
+  const Responsibilities moved{.offset = 0.505, .yaw = 0.495, .any = 1, .cost_nats = 0, .offset_is_wide = true, .yaw_is_wide = false};
+  Responsibilities turned = moved;
+  EXPECT_EQ(PriorChange(moved, turned), 0);
+  turned.offset = 0.5;
+  EXPECT_NEAR(PriorChange(moved, turned), 0.005, 1e-12);
+  turned.offset_is_wide = false;
+  turned.yaw_is_wide = true;
+  EXPECT_EQ(PriorChange(moved, turned), 1);
+  Responsibilities standing = moved, also = turned;
+  standing.any = also.any = 1e-4;
+  standing.offset = standing.yaw = also.offset = also.yaw = 1e-4;
+  EXPECT_NEAR(PriorChange(standing, also), 1e-4, 1e-12);
+}
+
 TEST(Mixture, AWallThatDeviatesInOneOfTwoWaysIsHeldInTheOtherAlone) {
   const CouplingOptions options;
   constexpr double kArm_m = 2, kOff_m = 0.15, kTurn_rad = 0.035, kSigma_m = 0.005, kSigma_rad = 0.03;

@@ -129,6 +129,19 @@ TEST(AssessDeviations, ASmallFaceAtAnAngleIsABoxAndNoWall) {
   EXPECT_EQ(status(0.2, 1.2), SurfaceStatus::kDeviated);
 }
 
+TEST(AssessDeviations, WhatStandsBehindThePlannedFaceIsNoBoxInFrontOfIt) {
+  const AGraph house = test::MakeHouse();
+  const double front = MakeFace(WallFrames(house)[kEast], house.surfaces[9]).side();
+  const auto status = [&](double offset_m) {
+    JointResult estimate = EstimateOfEastWall(house, {front * offset_m, 0.2}, Eigen::Matrix2d::Identity() * 1e-6, 0.7);
+    estimate.walls[0].seen = {{SurfaceId(9), 100, 0.7}};
+    return AssessDeviations(house, estimate).surfaces[9].status;
+  };
+  EXPECT_EQ(status(0.1), SurfaceStatus::kUnobserved);
+  EXPECT_EQ(status(-0.1), SurfaceStatus::kDeviated);
+  EXPECT_EQ(status(-0.005), SurfaceStatus::kUnobserved);  // within the tolerance
+}
+
 TEST(AssessDeviations, ADoorwayInAWallThatIsABoxIsNotJudged) {
   AGraph house = test::MakeHouse();
   house.doorways[0].wall = WallId(kEast);
@@ -238,6 +251,7 @@ TEST(DeviationsToJson, HasTheAgreedForm) {
   const auto& east = json["surfaces"][9];
   EXPECT_EQ(east["id"], 9);
   EXPECT_EQ(east["wall_guid"], "wall-east");
+  EXPECT_EQ(east["wall_id"], house.surfaces[9].wall.value);
   EXPECT_EQ(east["storey"], "Ground floor");
   EXPECT_EQ(east["status"], "deviated");
   EXPECT_NEAR(east["rotation_deg"], 3, 0.3);

@@ -70,5 +70,32 @@ TEST(MatchesOnOtherShapes, TellsThemFromTheMatchesOfWallsAsPlanned) {
   EXPECT_GE(found, 2u);  // both of its faces
 }
 
+// The wall was built farther off, so that what stands behind its planned face is seen: 10 cm behind that, from 3.4 to 5.9 m along it.
+TEST(MatchesOnOtherShapes, TellsAThingBehindThePlannedFaceOfAWallThatMovedAway) {
+  AGraph plan = test::MakeHouse();
+  const size_t middle = test::WallOf(plan, "wall-middle");
+  Match match;
+  double face_x = 0;
+  for (size_t i = 0; i < plan.surfaces.size(); ++i) {
+    if (plan.surfaces[i].wall.index() != middle || plan.surfaces[i].normal.x() < 0.9) continue;
+    match.plan_surface = SurfaceId(i);
+    face_x = plan.surfaces[i].start.x();
+  }
+  ASSERT_TRUE(match.plan_surface.valid());
+  SGraph map;
+  MapSurface& seen = map.surfaces.emplace_back();
+  const double x = face_x - 0.1;
+  seen.plane = {Eigen::Vector3d::UnitX(), -x};
+  seen.start = {x, 5.9};
+  seen.end = {x, 3.4};
+  for (float along = 0.05f; along < 2.5f; along += 0.1f) {
+    for (float z = 0.3f; z < 1.8f; z += 0.1f) seen.cells.emplace_back(along, z);
+  }
+  const auto on_other_shape = [&]() -> bool { return MatchesOnOtherShapes(map, plan, {match}, JointResult()).front(); };
+  EXPECT_FALSE(on_other_shape());
+  test::AddThing(plan, {x - 0.4, 3.3, 0}, {x, 5.95, 2});
+  EXPECT_TRUE(on_other_shape());
+}
+
 }  // namespace
 }  // namespace plumb::runtime

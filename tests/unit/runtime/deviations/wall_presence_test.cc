@@ -123,14 +123,15 @@ TEST(JudgePresence, AWallOfWhichAPartWasSeenInItsPlaceIsNotMissing) {
   part.wall = middle;
   part.reference = WallFrames(plan)[middle.index()].reference;
   part.observed_m2 = 0.3;
-  part.span_m = 0.4 * plan.surfaces[part.reference.index()].length_m();
+  part.span_m = part.seen_m = 0.4 * plan.surfaces[part.reference.index()].length_m();
   std::erase_if(s.estimate.walls, [&](const WallEstimate& w) { return w.wall == middle; });
   s.estimate.walls.push_back(part);
   EXPECT_FALSE(JudgePresence(s.map, plan, s.estimate)[middle.index()].missing);
   s.estimate.walls.back().deviation.offset_m = 0.2;  // a thing that stands elsewhere
   EXPECT_TRUE(JudgePresence(s.map, plan, s.estimate)[middle.index()].missing);
   s.estimate.walls.back().deviation.offset_m = 0;
-  s.estimate.walls.back().span_m = 0.2;
+  s.estimate.walls.back().span_m = plan.surfaces[part.reference.index()].length_m();  // a strip at either end
+  s.estimate.walls.back().seen_m = 0.2;
   EXPECT_TRUE(JudgePresence(s.map, plan, s.estimate)[middle.index()].missing);
 }
 

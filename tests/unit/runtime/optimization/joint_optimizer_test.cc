@@ -216,6 +216,24 @@ TEST(OptimizeJointly, WhatWasSeenOfASideIsCountedAtItsHeight) {
   EXPECT_EQ(num_seen(2.2), 1u);
 }
 
+// The middle of what was seen of it left out: it still reaches from end to end.
+TEST(OptimizeJointly, WhatWasSeenAlongAWallIsLessThanItsSpanWhereThereAreGaps) {
+  const AGraph house = test::MakeHouse();
+  Solved s = Solve(house, {});
+  const double length_m = house.surfaces[9].length_m();
+  EXPECT_GT(s.result.walls[kEast].seen_m, 0.8 * length_m);
+  for (MapSurface& patch : s.drive.map.surfaces) {
+    const auto length = static_cast<float>(patch.length_m());
+    patch.cells.clear();
+    for (float u = 0.05f; u < length; u += 0.1f) {
+      if (std::abs(u - 0.5f * length) > 0.3f * length) patch.cells.emplace_back(u, 1.0f);
+    }
+  }
+  CountSeen(s.drive.map, house, WallFrames(house), s.matches, s.result.T_plan_map, s.result.walls);
+  EXPECT_GT(s.result.walls[kEast].span_m, 0.8 * length_m);
+  EXPECT_LT(s.result.walls[kEast].seen_m, 0.5 * length_m);
+}
+
 TEST(OptimizeJointly, TheSpanOfAWallEndsWithItsFace) {
   AGraph house = test::MakeHouse();
   Solved s = Solve(house, {});
@@ -229,6 +247,7 @@ TEST(OptimizeJointly, TheSpanOfAWallEndsWithItsFace) {
   }
   const JointResult longer = OptimizeJointly(s.drive.map, house, s.matches, s.result.T_plan_map);
   EXPECT_NEAR(longer.walls[kEast].span_m, length_m, 0.05);
+  EXPECT_LE(longer.walls[kEast].seen_m, length_m + 0.1);
 }
 
 // Each patch has a square metre and two beyond either end as well.
@@ -259,23 +278,24 @@ TEST(OptimizeJointly, WhatGoesOnBeyondAWallIsNotCountedAsSeenOfIt) {
   EXPECT_NEAR(after.num_points, before.num_points, 0.05 * before.num_points);
 }
 
-// It meets the next wall as much later.
+// It meets the next wall as much later, but not by metres.
 TEST(OptimizeJointly, AWallThatIsOffMayBeAsMuchLonger) {
   const AGraph house = test::MakeHouse();
   const Solved s = Solve(house, {});
-  AGraph shorter = house;
-  Surface& face = shorter.surfaces[9];
-  face.end += 1.5 * (face.start - face.end).normalized();
-  const auto seen_m2 = [&](double offset_m) {
+  const auto seen_m2 = [&](double shorter_m, double offset_m) {
+    AGraph shorter = house;
+    Surface& face = shorter.surfaces[9];
+    face.end += shorter_m * (face.start - face.end).normalized();
     std::vector<WallEstimate> walls = s.result.walls;
     for (WallEstimate& wall : walls) wall.observed_m2 = 0;
     walls[kEast].deviation = {offset_m, 0};
     CountSeen(s.drive.map, shorter, WallFrames(shorter), s.matches, s.result.T_plan_map, walls);
     return walls[kEast].observed_m2;
   };
-  EXPECT_LT(seen_m2(0), 0.85 * s.result.walls[kEast].observed_m2);
-  EXPECT_LT(seen_m2(0), seen_m2(0.5));
-  EXPECT_NEAR(seen_m2(-1.6), s.result.walls[kEast].observed_m2, 0.01);
+  EXPECT_LT(seen_m2(1.5, 0), 0.85 * s.result.walls[kEast].observed_m2);
+  EXPECT_LT(seen_m2(1.5, 0), seen_m2(1.5, 0.5));
+  EXPECT_NEAR(seen_m2(0.5, -0.6), s.result.walls[kEast].observed_m2, 0.01);
+  EXPECT_EQ(seen_m2(1.5, -1.6), seen_m2(1.5, 0.6));
 }
 
 TEST(OptimizeJointly, APatchThatGoesOnBeyondItsFaceTellsLessOfItsTurn) {

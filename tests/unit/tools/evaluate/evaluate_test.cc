@@ -61,6 +61,18 @@ TEST(Evaluate, MeasuresTimeAndShareFromTheVerdicts) {
   EXPECT_FALSE(e.has_walls);
 }
 
+TEST(Evaluate, WritesTheTiltOfThePosesAsTextAndJson) {
+  tools::Run run = MakeRun();
+  for (runtime::StampedPose& pose : run.online) pose.T.rotate(Eigen::AngleAxisd(0.0872665, Eigen::Vector3d::UnitX()));  // 5 deg
+  const Evaluation e = Evaluate(run, MakeTruth());
+  EXPECT_THAT(EvaluationToText(e), HasSubstr("tilt rmse 5.00 deg, max 5.00 deg (7 poses)"));
+  EXPECT_THAT(EvaluationToText(e), HasSubstr("tilt rmse 0.00 deg, max 0.00 deg (10 poses)"));
+  const auto json = nlohmann::json::parse(EvaluationToJson(e));
+  EXPECT_NEAR(json.at("tilt_rmse_deg").get<double>(), 5, 1e-4);
+  EXPECT_NEAR(json.at("online").at("tilt_max_deg").get<double>(), 5, 1e-4);
+  EXPECT_NEAR(json.at("smoothed").at("tilt_max_deg").get<double>(), 0, 1e-9);
+}
+
 TEST(Evaluate, AFarPoseIsAWrongFixOnlyWhileLocalized) {
   tools::Run run = MakeRun();
   run.online[4].T.translation().x() = 3;  // the eighth scan, `lost`
@@ -84,6 +96,7 @@ TEST(Evaluate, ARunThatNeverLocalizedHasNoTime) {
   const auto json = nlohmann::json::parse(EvaluationToJson(e));
   EXPECT_TRUE(json.at("time_to_localize_s").is_null());
   EXPECT_TRUE(json.at("ate_rmse_m").is_null());
+  EXPECT_TRUE(json.at("tilt_rmse_deg").is_null());
 }
 
 TEST(Evaluate, WritesTheSameFiguresAsTextAndJson) {

@@ -62,6 +62,26 @@ TEST(ComparePoses, CountsPosesThatTheTruthDoesNotCover) {
   EXPECT_NEAR(e.max_m, 0, 1e-12);
 }
 
+// 5 degrees of roll and 12 of pitch tilt the vertical by acos(cos 5 cos 12).
+TEST(ComparePoses, GivesRmseAndMaxOfTheTilt) {
+  const runtime::Trajectory truth = {Pose(0, 0, 0, 30), Pose(0.1, 0, 0, 30), Pose(0.2, 0, 0, 30)};
+  runtime::Trajectory estimate = truth;
+  estimate[1].T.rotate(Eigen::AngleAxisd(5 * kRad, Eigen::Vector3d::UnitX()));
+  estimate[2].T.rotate(Eigen::AngleAxisd(5 * kRad, Eigen::Vector3d::UnitX()) * Eigen::AngleAxisd(12 * kRad, Eigen::Vector3d::UnitY()));
+  const double both = std::acos(std::cos(5 * kRad) * std::cos(12 * kRad));
+  const PoseErrors e = ComparePoses(estimate, truth, 0.5);
+  EXPECT_NEAR(e.tilt_max_rad, both, 1e-9);
+  EXPECT_NEAR(e.tilt_rmse_rad, std::sqrt((25 * kRad * kRad + both * both) / 3), 1e-9);
+}
+
+TEST(Difference, TiltLeavesTheTurnAboutTheVerticalOut) {
+  const Eigen::Isometry3d truth = Pose(0, 0, 0, 10).T;
+  Eigen::Isometry3d turned = Pose(0, 0, 0, 70).T;
+  EXPECT_NEAR(Difference(turned, truth).tilt_rad, 0, 1e-9);
+  turned.rotate(Eigen::AngleAxisd(-2 * kRad, Eigen::Vector3d::UnitY()));
+  EXPECT_NEAR(Difference(turned, truth).tilt_rad, 2 * kRad, 1e-9);
+}
+
 TEST(Difference, YawOfATiltedSensorIsThatOfTheTurn) {
   Eigen::Isometry3d truth = Eigen::Isometry3d::Identity();
   truth.linear() =

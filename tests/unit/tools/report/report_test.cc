@@ -144,6 +144,32 @@ TEST(Report, TheBuiltSurfaceIsShiftedAlongTheNormalAndTurnedAboutItsMiddle) {
               HasSubstr("class=\"dev built\" d=\"" + sheet.Line({2.47, -2.37}, {2.47, 2.57}) + "\""));
 }
 
+// A wall's verdict is that of all its faces, also of those two storeys up that nobody saw.
+TEST(Report, ShowsAWallOfAStoreyThatWasNotVisitedAsJudgedOnlyWhereItWasSeen) {
+  AGraph house = test::MakeHouse();
+  tools::Run run = MakeRun(house);
+  house.storeys.push_back({"storey-1", "Attic", 6.0, 2.5});
+  house.walls.push_back(house.walls[0]);
+  house.walls.back().storey = StoreyId(1);
+  Surface face = house.surfaces[0];
+  face.storey = StoreyId(1);
+  face.z_min_m += 6;
+  face.z_max_m += 6;
+  house.surfaces.push_back(face);
+  SurfaceEntry entry = run.deviations.surfaces[0];
+  entry.id = SurfaceId(house.surfaces.size() - 1);
+  entry.status = "as_planned";
+  const auto attic = [&](double points) {
+    entry.points = points;
+    tools::Run with = run;
+    with.deviations.surfaces.push_back(entry);
+    const std::string html = *RunToHtml(house, with, MakeInfo());
+    return html.substr(html.find("Storeys that were not visited"));
+  };
+  EXPECT_THAT(attic(0), Not(HasSubstr("class=\"as-planned\"")));
+  EXPECT_THAT(attic(500), HasSubstr("class=\"as-planned\""));
+}
+
 TEST(Report, SaysWhenNothingWasFound) {
   const AGraph house = test::MakeHouse();
   tools::Run run;

@@ -41,16 +41,18 @@ TEST(Verdicts, NameTheBadLine) {
 }
 
 TEST(Deviations, ReadsTheFileOfTheDesign) {
-  const auto d =
-      ParseDeviations(R"({"version":1,"gauge":"fewest walls","surfaces":[{"id":17,"wall_guid":"2O2Fr$t4X7Zf8NOew3FLOH","storey":"EG",
+  const auto d = ParseDeviations(
+      R"({"version":1,"gauge":"fewest walls","surfaces":[{"id":17,"wall_id":4,"wall_guid":"2O2Fr$t4X7Zf8NOew3FLOH","storey":"EG",
     "normal":[1,0,0],"status":"deviated","translation_m":0.203,"sigma_translation_m":0.004,"rotation_deg":0.4,"sigma_rotation_deg":0.1,
     "tilt_deg":0.0,"p_deviated":0.999,"observed_m2":6.1,"points":8123},{"id":18,"wall_guid":null,"status":"unobserved","translation_m":null}],
     "rooms":[{"id":3,"name":"Bad","guid":null,"translation_m":[0.1,-0.2],"rotation_deg":1.0,"sigma_m":0.005,"status":"as_planned"}],"unplanned":[]})",
-                      "deviations.json");
+      "deviations.json");
   ASSERT_TRUE(d) << d.error().message;
   EXPECT_EQ(d->gauge, "fewest walls");
   ASSERT_EQ(d->surfaces.size(), 2u);
   EXPECT_EQ(d->surfaces[0].id, SurfaceId(17));
+  EXPECT_EQ(d->surfaces[0].wall, WallId(4));
+  EXPECT_FALSE(d->surfaces[1].wall.valid());
   EXPECT_EQ(d->surfaces[0].translation_m, 0.203);
   EXPECT_EQ(d->surfaces[0].points, 8123);
   EXPECT_EQ(d->surfaces[1].translation_m, 0);

@@ -123,6 +123,11 @@ TEST(Simulate, WritesWhatWasBuiltOtherwise) {
   }
   EXPECT_GT(inner, summary->points / 3);
   EXPECT_EQ(outer, 0u);
+  for (size_t s = 0; s < house.surfaces.size(); ++s) {
+    const Surface& surface = house.surfaces[s];
+    EXPECT_NEAR(truth.at("surface_seen_m2").at(std::to_string(s)).get<double>(), summary->surface_seen_m2[s], 1e-6) << s;
+    EXPECT_LE(summary->surface_seen_m2[s], (surface.length_m() + 1.7) * (surface.z_max_m - surface.z_min_m + 0.2)) << s;
+  }
 }
 
 TEST(Simulate, RemovesTheScansOfAnEarlierRecording) {

@@ -151,7 +151,7 @@ TEST(Lidar, SeesADeviatedWallWhereItWasBuilt) {
     const Eigen::Isometry3d T = At(room.center.x(), room.center.y());
     const Sweep sweep = lidar.Take(0, 0, [&T](double) { return T; }, random);
     for (size_t i = 0; i < sweep.echoes.size(); ++i) {
-      const SurfaceId id = counter.SurfaceOf(sweep.echoes[i]);
+      const SurfaceId id = counter.HitOf(sweep.echoes[i]).surface;
       if (!id.valid()) continue;
       const Surface& s = plan.surfaces[id.index()];
       // The built plane, from the displacement as it is written to truth.json.

@@ -263,8 +263,10 @@ MatchResult Matcher::Match(const SGraph& map, const StartHint& hint) const {
   }
   result = Decide(finalists, view, plan, search.options, wrong);
   if (result.verdict != MatchResult::Verdict::kUnique) return result;
-  if (!wrong.scaled) wrong.scaled = search.ScaledLikelihood(view, finalists.front());
-  wrong.mirrored = impl_->MirroredLikelihood(view, finalists.front().fit);
+  Candidate& best = finalists.front();
+  if (!wrong.scaled) wrong.scaled = search.ScaledLikelihood(view, best);
+  if (view.planar && !best.lead_nearby) best.lead_nearby = search.LeadNearby(view, best.fit.pose);
+  wrong.mirrored = impl_->MirroredLikelihood(view, best.fit);
   return Decide(finalists, view, plan, search.options, wrong);
 }
 

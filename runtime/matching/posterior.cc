@@ -166,8 +166,14 @@ std::string SizeDoubt(const Candidate& candidate, const std::optional<double>& s
   const double sigmas = std::max(0.0, options.accept_scale_error - std::abs(candidate.fit.scale_error)) / candidate.fit.sigma_scale;
   const double for_other_size = scaled ? std::max(0.0, *scaled - candidate.rays.log_likelihood) : 0;
   const double lead = 0.5 * sigmas * sigmas - for_other_size;
-  if (lead >= options.accept_margin_nats) return {};
-  return fmt::format("a plan of another size fits about as well ({:+.1f} nats)", -lead);
+  const bool bent_so_far = for_other_size <= options.vouch_lead_ratio * candidate.rays.log_likelihood;
+  if (lead >= options.accept_margin_nats && bent_so_far) return {};
+  return fmt::format("a plan of another size fits about as well ({:+.1f} nats)", bent_so_far ? -lead : for_other_size);
+}
+
+std::string PlaceDoubt(const Candidate& candidate, const MatcherOptions& options) {
+  if (!candidate.lead_nearby || RaysFixPlace(candidate, options)) return {};
+  return fmt::format("a place beside it fits about as well ({:+.1f} nats)", -*candidate.lead_nearby);
 }
 
 MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, const AGraph& plan, const MatcherOptions& options,
@@ -199,6 +205,7 @@ MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, con
   const int required_planes = RequiredPlanes(plan.rooms.size(), sorted.front().log_prior, options);
   result.reason = Doubt(sorted.front(), best, required_planes, by_rays, map.planar ? std::nullopt : wrong.scaled, options);
   if (map.planar && result.reason.empty()) result.reason = SizeDoubt(sorted.front(), wrong.scaled, options);
+  if (map.planar && result.reason.empty()) result.reason = PlaceDoubt(sorted.front(), options);
   if (!result.reason.empty()) {
     if (rivals > 0) result.reason += "; " + OthersAlike(rivals);
     return result;

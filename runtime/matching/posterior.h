@@ -16,7 +16,8 @@ struct Candidate {
   RayEvidence rays;
   StoreyId storey;
   double log_prior = 0;  // of the robot's start, by a hint
-  // By how much the rays prefer it to poses a little off it (LeadOver); none: not asked for, as its walls fix it or too few of them agree.
+  // By how much the rays prefer it to poses a little off it (LeadOver); none: not asked for yet, as its walls fix it or too few of them
+  // agree.
   std::optional<double> lead_nearby;
 
   [[nodiscard]] double score() const { return rays.log_likelihood + log_prior; }
@@ -65,7 +66,12 @@ struct RayVerdict {
                                 const std::optional<double>& scaled, const MatcherOptions& options);
 
 // The same for the size of a map of a planar laser, which is bent: plans of other sizes may suit its rays better, so that their word counts
-// against the plan and not for it. Its walls must tell the size by accept_margin_nats more than that.
+// against the plan and not for it. Its walls must tell the size by accept_margin_nats more than that, and more than vouch_lead_ratio of the
+// rays' own word no walls make up for: those that agree are chosen for agreeing.
 [[nodiscard]] std::string SizeDoubt(const Candidate& candidate, const std::optional<double>& scaled, const MatcherOptions& options);
+
+// Of a map of a planar laser, whose walls are half furniture: whether the rays like a place a little off as well once the wall that tells
+// most is left out. Of a plan of another size one part of the map lies well here and the rest beside it. Empty if not asked for yet.
+[[nodiscard]] std::string PlaceDoubt(const Candidate& candidate, const MatcherOptions& options);
 
 }  // namespace plumb::runtime

@@ -228,6 +228,14 @@ TEST(SizeDoubt, WallsMustTellTheSizeByMoreThanRaysAreAgainstIt) {
   EXPECT_NE(SizeDoubt(c, std::nullopt, options), "");
 }
 
+TEST(SizeDoubt, NoWallsMakeUpForRaysThatFitAnotherSizeFarBetter) {
+  const MatcherOptions options;
+  Candidate c = Good(100);
+  c.fit.sigma_scale = options.accept_scale_error / 20;  // 200 nats
+  EXPECT_EQ(SizeDoubt(c, 100 * (1 + 0.9 * options.vouch_lead_ratio), options), "");
+  EXPECT_NE(SizeDoubt(c, 100 * (1 + 1.1 * options.vouch_lead_ratio), options), "");
+}
+
 TEST(Decide, AsksAPlanarMapForItsSize) {
   Candidate c = Good(100);
   c.fit.sigma_scale = 0.007;  // enough for another map
@@ -238,8 +246,23 @@ TEST(Decide, AsksAPlanarMapForItsSize) {
   c.fit.sigma_scale = 0.002;
   EXPECT_EQ(Decide({c}, planar, AGraph(), MatcherOptions()).verdict, Verdict::kUnique);
   WrongPlans larger;
-  larger.scaled = 140;
+  larger.scaled = 120;
   EXPECT_EQ(Decide({c}, planar, AGraph(), MatcherOptions(), larger).verdict, Verdict::kUnique) << "the walls tell it by more";
+}
+
+TEST(Decide, AsksAPlanarMapForTheVeryPlaceEvenWhereWallsFixIt) {
+  const MatcherOptions options;
+  Candidate c = Good(100);
+  MapView planar;
+  planar.planar = true;
+  ASSERT_TRUE(WallsFixPlace(c.fit, options));
+  c.lead_nearby = options.accept_margin_nats - 1;
+  EXPECT_EQ(Decide({c}, MapView(), AGraph(), options).verdict, Verdict::kUnique);
+  const MatchResult torn = Decide({c}, planar, AGraph(), options);
+  EXPECT_EQ(torn.verdict, Verdict::kSearching);
+  EXPECT_NE(torn.reason.find("beside it"), std::string::npos) << torn.reason;
+  c.lead_nearby = options.accept_margin_nats;
+  EXPECT_EQ(Decide({c}, planar, AGraph(), options).verdict, Verdict::kUnique);
 }
 
 TEST(StandsAlone, OnlyWhereAllOtherPlacesAreNoBetterThanOutside) {

@@ -204,6 +204,7 @@ std::string MatcherOptions::Check() const {
   }
   if (!(vouch_explained_ratio > 0)) return bad("vouch_explained_ratio", vouch_explained_ratio, "positive");
   if (!(vouch_lead_ratio > 0)) return bad("vouch_lead_ratio", vouch_lead_ratio, "positive");
+  if (!(vouch_sharp_ratio > 0)) return bad("vouch_sharp_ratio", vouch_sharp_ratio, "positive");
   if (!(vouch_nearly_all_ratio > 0)) return bad("vouch_nearly_all_ratio", vouch_nearly_all_ratio, "positive");
   if (!(vouch_lead_nats > 0)) return bad("vouch_lead_nats", vouch_lead_nats, "positive");
   if (vouch_min_planes < 3) return bad("vouch_min_planes", vouch_min_planes, "at least 3");
@@ -257,8 +258,10 @@ MatchResult Matcher::Match(const SGraph& map, const StartHint& hint) const {
   if (!finalists.empty()) {
     Candidate& best = finalists.front();
     if (!view.planar && !WallsTellScale(best.fit, search.options)) wrong.scaled = search.ScaledLikelihood(view, best);
-    if (best.fit.consistent_planes >= kLeastPlanes && !WallsFixPlace(best.fit, search.options)) {
-      best.lead_nearby = search.LeadNearby(view, best.fit.pose);
+    if (best.fit.consistent_planes >= kLeastPlanes) {
+      const auto may_decide = [&] { return MayVouch(finalists, wrong, search.options) && !RaysVouch(finalists, wrong, search.options); };
+      if (!WallsFixPlace(best.fit, search.options) || may_decide()) best.lead_nearby = search.LeadNearby(view, best.fit.pose);
+      if (!wrong.scaled && may_decide()) wrong.scaled = search.ScaledLikelihood(view, best);
     }
   }
   result = Decide(finalists, view, plan, search.options, wrong);

@@ -44,7 +44,10 @@ struct WrongPlans {
 [[nodiscard]] int RequiredPlanes(size_t num_rooms, double log_prior, const MatcherOptions& options);
 
 // Whether the rays alone tell the place (see MatcherOptions). `sorted` must not be empty.
-[[nodiscard]] bool RaysVouch(const std::vector<Candidate>& sorted, double mirrored, const MatcherOptions& options);
+[[nodiscard]] bool RaysVouch(const std::vector<Candidate>& sorted, const WrongPlans& wrong, const MatcherOptions& options);
+
+// Whether they might, if what was not asked for yet (Candidate::lead_nearby of the best, WrongPlans::scaled) were all for it.
+[[nodiscard]] bool MayVouch(const std::vector<Candidate>& sorted, const WrongPlans& wrong, const MatcherOptions& options);
 
 // Whether the best is the only place at which the rays fit: by vouch_lead_nats better than "outside the plan", while all others, the best
 // in the plan's mirror image among them, are no better than that. Without another there is nothing to tell by. `sorted` must not be empty.

@@ -184,9 +184,9 @@ std::string SizeDoubt(const Candidate& candidate, const std::optional<double>& s
   return fmt::format("a plan of another size fits about as well ({:+.1f} nats)", bent_so_far ? -lead : for_other_size);
 }
 
-std::string PlaceDoubt(const Candidate& candidate, const MatcherOptions& options) {
-  if (!candidate.lead_nearby || RaysFixPlace(candidate, options)) return {};
-  return fmt::format("a place beside it fits about as well ({:+.1f} nats)", -*candidate.lead_nearby);
+std::string PlaceDoubt(const Candidate& candidate) {
+  if (candidate.lead_nearby.value_or(0) >= 0) return {};
+  return fmt::format("a place beside it fits better ({:+.1f} nats)", -*candidate.lead_nearby);
 }
 
 MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, const AGraph& plan, const MatcherOptions& options,
@@ -218,7 +218,7 @@ MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, con
   const int required_planes = RequiredPlanes(plan.rooms.size(), sorted.front().log_prior, options);
   result.reason = Doubt(sorted.front(), best, required_planes, by_rays, map.planar ? std::nullopt : wrong.scaled, options);
   if (map.planar && result.reason.empty()) result.reason = SizeDoubt(sorted.front(), wrong.scaled, options);
-  if (map.planar && result.reason.empty()) result.reason = PlaceDoubt(sorted.front(), options);
+  if (map.planar && result.reason.empty()) result.reason = PlaceDoubt(sorted.front());
   if (!result.reason.empty()) {
     if (rivals > 0) result.reason += "; " + OthersAlike(rivals);
     return result;

@@ -73,8 +73,8 @@ struct RayVerdict {
 // rays' own word no walls make up for: those that agree are chosen for agreeing.
 [[nodiscard]] std::string SizeDoubt(const Candidate& candidate, const std::optional<double>& scaled, const MatcherOptions& options);
 
-// Of a map of a planar laser, whose walls are half furniture: whether the rays like a place a little off as well once the wall that tells
-// most is left out. Of a plan of another size one part of the map lies well here and the rest beside it. Empty if not asked for yet.
-[[nodiscard]] std::string PlaceDoubt(const Candidate& candidate, const MatcherOptions& options);
+// Of a map of a planar laser, whose walls are half furniture: whether the rays prefer a place a little off once the wall that tells most is
+// left out. In a plan of another size one part of the map lies well here and the rest beside it. Empty if not asked for yet.
+[[nodiscard]] std::string PlaceDoubt(const Candidate& candidate);
 
 }  // namespace plumb::runtime

@@ -285,18 +285,18 @@ TEST(Decide, AsksAPlanarMapForItsSize) {
   EXPECT_EQ(Decide({c}, planar, AGraph(), MatcherOptions(), larger).verdict, Verdict::kUnique) << "the walls tell it by more";
 }
 
-TEST(Decide, AsksAPlanarMapForTheVeryPlaceEvenWhereWallsFixIt) {
+TEST(Decide, APlanarMapMustNotLieBetterBesideThePlaceEvenWhereWallsFixIt) {
   const MatcherOptions options;
   Candidate c = Good(100);
   MapView planar;
   planar.planar = true;
   ASSERT_TRUE(WallsFixPlace(c.fit, options));
-  c.lead_nearby = options.accept_margin_nats - 1;
+  c.lead_nearby = -1;
   EXPECT_EQ(Decide({c}, MapView(), AGraph(), options).verdict, Verdict::kUnique);
   const MatchResult torn = Decide({c}, planar, AGraph(), options);
   EXPECT_EQ(torn.verdict, Verdict::kSearching);
   EXPECT_NE(torn.reason.find("beside it"), std::string::npos) << torn.reason;
-  c.lead_nearby = options.accept_margin_nats;
+  c.lead_nearby = 1;
   EXPECT_EQ(Decide({c}, planar, AGraph(), options).verdict, Verdict::kUnique);
 }
 

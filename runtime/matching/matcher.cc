@@ -119,10 +119,15 @@ class PoseSearch {
     return nearest == plan.levels().end() ? StoreyId() : nearest->storey;
   }
 
-  // The heights that a pose may have. Walls look alike at any height, so only without a floor or ceiling is there more than one.
+  // The heights that a pose may have. Walls look alike at any height, so there is more than one without a floor or ceiling, and where the
+  // floor may be a table.
   [[nodiscard]] std::vector<double> Heights(const MapView& map, const PlanarPose& pose) const {
-    if (map.floor_z_m || map.ceiling_z_m) return {pose.z_m};
     std::vector<double> heights;
+    if (map.floor_z_m || map.ceiling_z_m) {
+      heights.push_back(pose.z_m);
+      for (const double floor_z_m : map.lower_floors_z_m) heights.push_back(pose.z_m + *map.floor_z_m - floor_z_m);
+      return heights;
+    }
     for (double height_m : kSensorHeights_m) {
       if (map.sensor_z_m - height_m > map.lowest_z_m + kLowestMargin_m) continue;  // points below the floor
       heights.push_back(pose.z_m + height_m - 0.6);

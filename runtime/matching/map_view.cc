@@ -14,6 +14,10 @@ constexpr double kKeyframeTurn_rad = 0.52;  // ... unless they look elsewhere
 constexpr double kOnSurface_m = 0.10;
 constexpr double kMinRange_m = 0.4;
 constexpr int kAzimuths = 120, kElevations = 6;
+constexpr double kFloorStep_m = 0.15;       // between two heights of floors
+constexpr double kLowerFloorPoints = 0.02;  // of those of the floor with most points
+constexpr size_t kMaxLowerFloors = 2;
+constexpr double kHighestTable_m = 1.2;  // what is further below is another storey's
 constexpr double kRangeBin_m = 0.25, kMaxRange_m = 60.0;
 
 struct Horizontal {
@@ -21,16 +25,28 @@ struct Horizontal {
   double num_points;
 };
 
-// The one with most points. A map over several storeys has several floors; any of them fixes the height.
-std::optional<double> DominantHeight(const SGraph& map, SurfaceKind kind, const Eigen::Vector2d& at) {
-  std::optional<Horizontal> best;
+// What is level, most points first. A map over several storeys has several floors; any of them fixes the height. Only floors below the
+// sensor and ceilings above it: undersides and tops of tables pass for both.
+std::vector<Horizontal> Horizontals(const SGraph& map, SurfaceKind kind, const Eigen::Vector2d& at, double sensor_z_m) {
+  std::vector<Horizontal> found;
   for (const MapSurface& s : map.surfaces) {
     if (s.kind != kind || s.num_points <= 0 || std::abs(s.plane.n.z()) < 0.9) continue;
     const double z_m = -(s.plane.d + s.plane.n.head<2>().dot(at)) / s.plane.n.z();
-    if (!best || s.num_points > best->num_points) best = Horizontal{z_m, s.num_points};
+    if ((z_m < sensor_z_m) == (kind == SurfaceKind::kFloor)) found.push_back({z_m, static_cast<double>(s.num_points)});
   }
-  if (!best) return std::nullopt;
-  return best->z_m;
+  std::stable_sort(found.begin(), found.end(), [](const Horizontal& a, const Horizontal& b) { return a.num_points > b.num_points; });
+  return found;
+}
+
+// A table that the sensor stands close to has more points than the floor: what is level and clearly below may be the floor as well.
+std::vector<double> LowerFloors(const std::vector<Horizontal>& floors) {
+  std::vector<double> lower_m;
+  for (const Horizontal& f : floors) {
+    if (lower_m.size() == kMaxLowerFloors || f.num_points < kLowerFloorPoints * floors.front().num_points) break;
+    const double above_m = lower_m.empty() ? floors.front().z_m : *std::min_element(lower_m.begin(), lower_m.end());
+    if (f.z_m < above_m - kFloorStep_m && f.z_m > floors.front().z_m - kHighestTable_m) lower_m.push_back(f.z_m);
+  }
+  return lower_m;
 }
 
 // Farthest-point order: any number of them covers the map as well as that number can.
@@ -186,10 +202,13 @@ MapView ViewMap(const SGraph& map, const MatcherOptions& options) {
     w.end -= view.center_m;
   }
   const Eigen::Vector2d at = map.keyframes.empty() ? view.center_m : map.keyframes.front().T_map_kf.translation().head<2>().eval();
-  view.floor_z_m = DominantHeight(map, SurfaceKind::kFloor, at);
-  view.ceiling_z_m = DominantHeight(map, SurfaceKind::kCeiling, at);
-  view.start_m = at - view.center_m;
   if (!map.keyframes.empty()) view.sensor_z_m = map.keyframes.front().T_map_kf.translation().z();
+  const std::vector<Horizontal> floors = Horizontals(map, SurfaceKind::kFloor, at, view.sensor_z_m);
+  const std::vector<Horizontal> ceilings = Horizontals(map, SurfaceKind::kCeiling, at, view.sensor_z_m);
+  if (!floors.empty()) view.floor_z_m = floors.front().z_m;
+  if (!ceilings.empty()) view.ceiling_z_m = ceilings.front().z_m;
+  view.lower_floors_z_m = LowerFloors(floors);
+  view.start_m = at - view.center_m;
   view.lowest_z_m = LowestHeight(map);
   view.rays = SampleRays(map, view, options);
   view.background = RangeBackground(view.rays);

@@ -35,9 +35,10 @@ struct MapView {
   bool planar = false;                                 // as SGraph
   Eigen::Vector2d center_m = Eigen::Vector2d::Zero();  // map frame: middle of the walls, weighted by length
   std::vector<MapWall> walls;
-  double wall_length_m = 0;    // of all of them
-  double wall_sigma_m = 0.02;  // of a wall that stands as planned: SigmaOfWalls()
-  std::optional<double> floor_z_m, ceiling_z_m;
+  double wall_length_m = 0;                           // of all of them
+  double wall_sigma_m = 0.02;                         // of a wall that stands as planned: SigmaOfWalls()
+  std::optional<double> floor_z_m, ceiling_z_m;       // of what is level below and above the sensor, of most points
+  std::vector<double> lower_floors_z_m;               // below floor_z_m, which may be a table: the floor as well
   Eigen::Vector2d start_m = Eigen::Vector2d::Zero();  // of the first keyframe's sensor, ...
   double sensor_z_m = 0, lowest_z_m = 0;              // ... its height; height of the points (1st percentile)
   std::vector<MapRay> rays;                           // every k-th is again spread over keyframes and directions

@@ -119,10 +119,15 @@ class PoseSearch {
     return nearest == plan.levels().end() ? StoreyId() : nearest->storey;
   }
 
-  // The heights that a pose may have. Walls look alike at any height, so only without a floor or ceiling is there more than one.
+  // The heights that a pose may have. Walls look alike at any height, so there is more than one without a floor or ceiling, and where the
+  // floor may be a table.
   [[nodiscard]] std::vector<double> Heights(const MapView& map, const PlanarPose& pose) const {
-    if (map.floor_z_m || map.ceiling_z_m) return {pose.z_m};
     std::vector<double> heights;
+    if (map.floor_z_m || map.ceiling_z_m) {
+      heights.push_back(pose.z_m);
+      for (const double floor_z_m : map.lower_floors_z_m) heights.push_back(pose.z_m + *map.floor_z_m - floor_z_m);
+      return heights;
+    }
     for (double height_m : kSensorHeights_m) {
       if (map.sensor_z_m - height_m > map.lowest_z_m + kLowestMargin_m) continue;  // points below the floor
       heights.push_back(pose.z_m + height_m - 0.6);
@@ -204,6 +209,7 @@ std::string MatcherOptions::Check() const {
   }
   if (!(vouch_explained_ratio > 0)) return bad("vouch_explained_ratio", vouch_explained_ratio, "positive");
   if (!(vouch_lead_ratio > 0)) return bad("vouch_lead_ratio", vouch_lead_ratio, "positive");
+  if (!(vouch_sharp_ratio > 0)) return bad("vouch_sharp_ratio", vouch_sharp_ratio, "positive");
   if (!(vouch_nearly_all_ratio > 0)) return bad("vouch_nearly_all_ratio", vouch_nearly_all_ratio, "positive");
   if (!(vouch_lead_nats > 0)) return bad("vouch_lead_nats", vouch_lead_nats, "positive");
   if (vouch_min_planes < 3) return bad("vouch_min_planes", vouch_min_planes, "at least 3");
@@ -257,14 +263,18 @@ MatchResult Matcher::Match(const SGraph& map, const StartHint& hint) const {
   if (!finalists.empty()) {
     Candidate& best = finalists.front();
     if (!view.planar && !WallsTellScale(best.fit, search.options)) wrong.scaled = search.ScaledLikelihood(view, best);
-    if (best.fit.consistent_planes >= kLeastPlanes && !WallsFixPlace(best.fit, search.options)) {
-      best.lead_nearby = search.LeadNearby(view, best.fit.pose);
+    if (best.fit.consistent_planes >= kLeastPlanes) {
+      const auto may_decide = [&] { return MayVouch(finalists, wrong, search.options) && !RaysVouch(finalists, wrong, search.options); };
+      if (!WallsFixPlace(best.fit, search.options) || may_decide()) best.lead_nearby = search.LeadNearby(view, best.fit.pose);
+      if (!wrong.scaled && may_decide()) wrong.scaled = search.ScaledLikelihood(view, best);
     }
   }
   result = Decide(finalists, view, plan, search.options, wrong);
   if (result.verdict != MatchResult::Verdict::kUnique) return result;
-  if (!wrong.scaled) wrong.scaled = search.ScaledLikelihood(view, finalists.front());
-  wrong.mirrored = impl_->MirroredLikelihood(view, finalists.front().fit);
+  Candidate& best = finalists.front();
+  if (!wrong.scaled) wrong.scaled = search.ScaledLikelihood(view, best);
+  if (view.planar && !best.lead_nearby) best.lead_nearby = search.LeadNearby(view, best.fit.pose);
+  wrong.mirrored = impl_->MirroredLikelihood(view, best.fit);
   return Decide(finalists, view, plan, search.options, wrong);
 }
 

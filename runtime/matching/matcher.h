@@ -48,12 +48,14 @@ struct MatcherOptions {
   double accept_scale_loss_nats = 5;  // by more than this the rays must never prefer a plan that is larger or smaller by accept_scale_error
   // Rays vouch for a place that far fewer walls would not: in furnished or much deviating buildings. They do where this share of them ends
   // on what the plan has there, and the place leads every rival, the plan's mirror image and "outside" by this many nats, and by this much
-  // of its own log-likelihood unless nearly all rays end where they should. Furniture in the way, where half of the rays of an office may
-  // end, says nothing: only those rays count that nothing stops in front, and the lead must be the longer, up to twice, the more are
-  // stopped.
+  // of its own log-likelihood unless nearly all rays end where they should. A smaller part will do of a place that leads those nearby and
+  // plans of other sizes by as much. Furniture in the way, where half of the rays of an office may end, says nothing: only those rays count
+  // that nothing stops in front, and the lead must be the longer, up to twice, the more are stopped, unless accept_min_planes agree and the
+  // place leads those nearby by accept_margin_nats.
   double vouch_explained_ratio = 0.65;
   double vouch_lead_nats = 30;
   double vouch_lead_ratio = 0.3;
+  double vouch_sharp_ratio = 0.2;
   double vouch_nearly_all_ratio = 0.9;
   int vouch_min_planes = 4;  // one less where nearly all rays end where they should and few go through walls
   double vouch_max_through_ratio = 0.06;

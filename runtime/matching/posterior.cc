@@ -72,6 +72,23 @@ bool IsRival(const Candidate& best, const Candidate& other, const MatcherOptions
   return best.score() - other.score() < options.accept_margin_nats && prior_lead < options.hint_lead_nats;
 }
 
+// `unknown`: what counts as the answer to what was not asked for yet.
+bool Vouches(const std::vector<Candidate>& sorted, const WrongPlans& wrong, const MatcherOptions& options, bool unknown) {
+  const Candidate& best = sorted.front();
+  const RayEvidence& rays = best.rays;
+  double rival = std::max(0.0, wrong.mirrored);
+  for (size_t i = 1; i < sorted.size(); ++i) rival = std::max(rival, sorted[i].rays.log_likelihood);
+  const double lead = rays.log_likelihood - rival, sharp = options.vouch_sharp_ratio * rays.log_likelihood;
+  // Rays that furniture stops are not charged, so that foreign plans rise where there are many; but nothing holds their places.
+  const bool held = best.fit.consistent_planes >= options.accept_min_planes && (best.lead_nearby ? RaysFixPlace(best, options) : unknown);
+  const double least_nats = options.vouch_lead_nats * (held ? 1.0 : std::clamp(4 * rays.in_front_ratio, 1.0, 2.0));
+  if (rays.explained_ratio < options.vouch_explained_ratio * (1 - rays.in_front_ratio) || lead < least_nats) return false;
+  if (lead >= options.vouch_lead_ratio * rays.log_likelihood || rays.explained_ratio >= options.vouch_nearly_all_ratio) return true;
+  const bool sharp_in_place = best.lead_nearby ? *best.lead_nearby >= sharp : unknown;
+  const bool sharp_in_size = wrong.scaled ? rays.log_likelihood - *wrong.scaled >= sharp : unknown;
+  return lead >= sharp && sharp_in_place && sharp_in_size;
+}
+
 std::string OthersAlike(std::ptrdiff_t count) {
   return count == 1 ? "1 other place in the plan looks alike" : fmt::format("{} other places in the plan look alike", count);
 }
@@ -98,16 +115,12 @@ int RequiredPlanes(size_t num_rooms, double log_prior, const MatcherOptions& opt
   return options.accept_min_planes + static_cast<int>(std::lround(std::log10(std::max(1.0, like_this))));
 }
 
-bool RaysVouch(const std::vector<Candidate>& sorted, double mirrored, const MatcherOptions& options) {
-  const RayEvidence& best = sorted.front().rays;
-  const double counted_ratio = 1 - best.in_front_ratio;
-  double rival = std::max(0.0, mirrored);
-  for (size_t i = 1; i < sorted.size(); ++i) rival = std::max(rival, sorted[i].rays.log_likelihood);
-  const double lead = best.log_likelihood - rival;
-  // Rays that furniture stops are not charged, so that foreign plans rise where there are many.
-  const double least_nats = options.vouch_lead_nats * std::clamp(4 * best.in_front_ratio, 1.0, 2.0);
-  return best.explained_ratio >= options.vouch_explained_ratio * counted_ratio && lead >= least_nats &&
-         (lead >= options.vouch_lead_ratio * best.log_likelihood || best.explained_ratio >= options.vouch_nearly_all_ratio);
+bool RaysVouch(const std::vector<Candidate>& sorted, const WrongPlans& wrong, const MatcherOptions& options) {
+  return Vouches(sorted, wrong, options, false);
+}
+
+bool MayVouch(const std::vector<Candidate>& sorted, const WrongPlans& wrong, const MatcherOptions& options) {
+  return Vouches(sorted, wrong, options, true);
 }
 
 bool StandsAlone(const std::vector<Candidate>& sorted, double mirrored, const MatcherOptions& options) {
@@ -166,8 +179,14 @@ std::string SizeDoubt(const Candidate& candidate, const std::optional<double>& s
   const double sigmas = std::max(0.0, options.accept_scale_error - std::abs(candidate.fit.scale_error)) / candidate.fit.sigma_scale;
   const double for_other_size = scaled ? std::max(0.0, *scaled - candidate.rays.log_likelihood) : 0;
   const double lead = 0.5 * sigmas * sigmas - for_other_size;
-  if (lead >= options.accept_margin_nats) return {};
-  return fmt::format("a plan of another size fits about as well ({:+.1f} nats)", -lead);
+  const bool bent_so_far = for_other_size <= options.vouch_lead_ratio * candidate.rays.log_likelihood;
+  if (lead >= options.accept_margin_nats && bent_so_far) return {};
+  return fmt::format("a plan of another size fits about as well ({:+.1f} nats)", bent_so_far ? -lead : for_other_size);
+}
+
+std::string PlaceDoubt(const Candidate& candidate) {
+  if (candidate.lead_nearby.value_or(0) >= 0) return {};
+  return fmt::format("a place beside it fits better ({:+.1f} nats)", -*candidate.lead_nearby);
 }
 
 MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, const AGraph& plan, const MatcherOptions& options,
@@ -178,7 +197,7 @@ MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, con
     return result;
   }
   const size_t n = std::min(sorted.size(), static_cast<size_t>(options.keep_hypotheses));
-  const RayVerdict by_rays{RaysVouch(sorted, wrong.mirrored, options), StandsAlone(sorted, wrong.mirrored, options)};
+  const RayVerdict by_rays{RaysVouch(sorted, wrong, options), StandsAlone(sorted, wrong.mirrored, options)};
   for (size_t i = 0; i < n; ++i) {
     result.hypotheses.push_back(ToHypothesis(sorted[i], map, plan.origin, by_rays.vouch && i == 0, options));
   }
@@ -199,6 +218,7 @@ MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, con
   const int required_planes = RequiredPlanes(plan.rooms.size(), sorted.front().log_prior, options);
   result.reason = Doubt(sorted.front(), best, required_planes, by_rays, map.planar ? std::nullopt : wrong.scaled, options);
   if (map.planar && result.reason.empty()) result.reason = SizeDoubt(sorted.front(), wrong.scaled, options);
+  if (map.planar && result.reason.empty()) result.reason = PlaceDoubt(sorted.front());
   if (!result.reason.empty()) {
     if (rivals > 0) result.reason += "; " + OthersAlike(rivals);
     return result;

@@ -16,7 +16,8 @@ struct Candidate {
   RayEvidence rays;
   StoreyId storey;
   double log_prior = 0;  // of the robot's start, by a hint
-  // By how much the rays prefer it to poses a little off it (LeadOver); none: not asked for, as its walls fix it or too few of them agree.
+  // By how much the rays prefer it to poses a little off it (LeadOver); none: not asked for yet, as its walls fix it or too few of them
+  // agree.
   std::optional<double> lead_nearby;
 
   [[nodiscard]] double score() const { return rays.log_likelihood + log_prior; }
@@ -43,7 +44,10 @@ struct WrongPlans {
 [[nodiscard]] int RequiredPlanes(size_t num_rooms, double log_prior, const MatcherOptions& options);
 
 // Whether the rays alone tell the place (see MatcherOptions). `sorted` must not be empty.
-[[nodiscard]] bool RaysVouch(const std::vector<Candidate>& sorted, double mirrored, const MatcherOptions& options);
+[[nodiscard]] bool RaysVouch(const std::vector<Candidate>& sorted, const WrongPlans& wrong, const MatcherOptions& options);
+
+// Whether they might, if what was not asked for yet (Candidate::lead_nearby of the best, WrongPlans::scaled) were all for it.
+[[nodiscard]] bool MayVouch(const std::vector<Candidate>& sorted, const WrongPlans& wrong, const MatcherOptions& options);
 
 // Whether the best is the only place at which the rays fit: by vouch_lead_nats better than "outside the plan", while all others, the best
 // in the plan's mirror image among them, are no better than that. Without another there is nothing to tell by. `sorted` must not be empty.
@@ -65,7 +69,12 @@ struct RayVerdict {
                                 const std::optional<double>& scaled, const MatcherOptions& options);
 
 // The same for the size of a map of a planar laser, which is bent: plans of other sizes may suit its rays better, so that their word counts
-// against the plan and not for it. Its walls must tell the size by accept_margin_nats more than that.
+// against the plan and not for it. Its walls must tell the size by accept_margin_nats more than that, and more than vouch_lead_ratio of the
+// rays' own word no walls make up for: those that agree are chosen for agreeing.
 [[nodiscard]] std::string SizeDoubt(const Candidate& candidate, const std::optional<double>& scaled, const MatcherOptions& options);
+
+// Of a map of a planar laser, whose walls are half furniture: whether the rays prefer a place a little off once the wall that tells most is
+// left out. In a plan of another size one part of the map lies well here and the rest beside it. Empty if not asked for yet.
+[[nodiscard]] std::string PlaceDoubt(const Candidate& candidate);
 
 }  // namespace plumb::runtime

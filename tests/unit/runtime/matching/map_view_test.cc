@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <optional>
+
 #include "tests/unit/runtime/matching/scenes.h"
 
 namespace plumb::runtime {
@@ -25,6 +28,52 @@ TEST(ViewMap, WallsAreUprightLongEnoughAndAboutTheMiddle) {
   }
   EXPECT_LT(moment.norm() / length_m, 1e-9);
   EXPECT_NEAR(view.wall_length_m, length_m, 1e-9);
+}
+
+// Of the house, with something level `above_m` its floor that has `times` its points.
+SGraph MapWithTable(double above_m, double times) {
+  SGraph map = MakeSyntheticMap(test::MakeHouse(), test::OnTour(test::kFromA, test::UprightPose(25, 1, 2, 0.3)));
+  const auto floor =
+      std::find_if(map.surfaces.begin(), map.surfaces.end(), [](const MapSurface& s) { return s.kind == SurfaceKind::kFloor; });
+  MapSurface table = *floor;
+  table.plane.d -= table.plane.n.z() * above_m;
+  table.num_points *= times;
+  map.surfaces.push_back(table);
+  return map;
+}
+
+TEST(ViewMap, WhatIsLevelBelowTheFloorWithMostPointsMayBeTheFloor) {
+  const std::optional<double> floor_z_m = ViewOfHouse().floor_z_m;
+  ASSERT_TRUE(floor_z_m);
+  EXPECT_TRUE(ViewOfHouse().lower_floors_z_m.empty());
+  const MapView view = ViewMap(MapWithTable(0.4, 3), MatcherOptions());
+  EXPECT_NEAR(*view.floor_z_m, *floor_z_m + 0.4, 1e-6);
+  ASSERT_EQ(view.lower_floors_z_m.size(), 1u);
+  EXPECT_NEAR(view.lower_floors_z_m.front(), *floor_z_m, 1e-6);
+  const MapView low = ViewMap(MapWithTable(0.4, 0.5), MatcherOptions());
+  EXPECT_NEAR(*low.floor_z_m, *floor_z_m, 1e-6);
+  EXPECT_TRUE(low.lower_floors_z_m.empty()) << "a table is no floor below the floor";
+}
+
+TEST(ViewMap, NoFloorIsAboveTheSensorAndNoCeilingBelow) {
+  SGraph map = MapWithTable(3, 5);
+  const std::optional<double> floor_z_m = ViewMap(map, MatcherOptions()).floor_z_m;
+  EXPECT_NEAR(*floor_z_m, *ViewOfHouse().floor_z_m, 1e-6);
+  map.surfaces.back() = MapWithTable(0.4, 5).surfaces.back();
+  map.surfaces.back().kind = SurfaceKind::kCeiling;
+  const std::optional<double> ceiling_z_m = ViewMap(map, MatcherOptions()).ceiling_z_m;
+  EXPECT_EQ(ceiling_z_m.has_value(), ViewOfHouse().ceiling_z_m.has_value());
+  EXPECT_GT(ceiling_z_m.value_or(9), *floor_z_m + 1);
+}
+
+TEST(Matcher, ATableWithMorePointsThanTheFloorIsNotTakenForIt) {
+  const AGraph plan = test::MakeHouse();
+  const MatchResult match = Matcher(plan).Match(MapWithTable(0.4, 3));
+  ASSERT_FALSE(match.hypotheses.empty()) << match.reason;
+  const Eigen::Isometry3d truth = test::UprightPose(25, 1, 2, 0.3);
+  const test::PoseError error = test::ErrorOf(match.hypotheses.front().T_plan_map, truth, test::kFromA.front());
+  EXPECT_LT(error.z_m, 0.1);
+  EXPECT_LT(error.xy_m, 0.1);
 }
 
 TEST(ScaledView, MovesWallsAndWhereRaysEndInThePlaneOnly) {

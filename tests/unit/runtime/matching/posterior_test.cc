@@ -156,17 +156,17 @@ TEST(WallsTellScale, OnlyWhereTheyAgreeWithThePlansToo) {
 
 TEST(RaysVouch, OnlyFarAheadOfTheRivalAndTheMirrorImage) {
   const MatcherOptions options;
-  EXPECT_TRUE(RaysVouch({Good(100), Good(20, 5)}, 0, options));
-  EXPECT_FALSE(RaysVouch({Good(100), Good(80, 5)}, 0, options)) << "a rival is near";
-  EXPECT_FALSE(RaysVouch({Good(100), Good(20, 5)}, 80, options)) << "the mirror image is near";
-  EXPECT_FALSE(RaysVouch({Good(300), Good(300 - 0.9 * options.vouch_lead_ratio * 300, 5)}, 0, options))
+  EXPECT_TRUE(RaysVouch({Good(100), Good(20, 5)}, {}, options));
+  EXPECT_FALSE(RaysVouch({Good(100), Good(80, 5)}, {}, options)) << "a rival is near";
+  EXPECT_FALSE(RaysVouch({Good(100), Good(20, 5)}, {80, {}}, options)) << "the mirror image is near";
+  EXPECT_FALSE(RaysVouch({Good(300), Good(300 - 0.9 * options.vouch_lead_ratio * 300, 5)}, {}, options))
       << "a small part of what both explain";
   Candidate nearly_all = Good(300);
   nearly_all.rays.explained_ratio = options.vouch_nearly_all_ratio;
-  EXPECT_TRUE(RaysVouch({nearly_all, Good(300 - options.vouch_lead_nats, 5)}, 0, options));
+  EXPECT_TRUE(RaysVouch({nearly_all, Good(300 - options.vouch_lead_nats, 5)}, {}, options));
   Candidate blind = Good(100);
   blind.rays.explained_ratio = 0.5;
-  EXPECT_FALSE(RaysVouch({blind}, 0, options)) << "too few rays end where they should";
+  EXPECT_FALSE(RaysVouch({blind}, {}, options)) << "too few rays end where they should";
 }
 
 TEST(RaysVouch, FurnitureCountsNeitherWay) {
@@ -174,20 +174,55 @@ TEST(RaysVouch, FurnitureCountsNeitherWay) {
   Candidate furnished = Good(100);
   furnished.rays.explained_ratio = 0.45;
   furnished.rays.in_front_ratio = 0.4;
-  EXPECT_TRUE(RaysVouch({furnished}, 0, options));
+  EXPECT_TRUE(RaysVouch({furnished}, {}, options));
   furnished.rays.in_front_ratio = 0.2;
-  EXPECT_FALSE(RaysVouch({furnished}, 0, options)) << "many of the others end where the plan has nothing";
+  EXPECT_FALSE(RaysVouch({furnished}, {}, options)) << "many of the others end where the plan has nothing";
 }
 
 TEST(RaysVouch, AmongFurnitureOnlyFurtherAhead) {
   const MatcherOptions options;
   Candidate c = Good(1.5 * options.vouch_lead_nats);
   c.rays.in_front_ratio = 0.2;
-  EXPECT_TRUE(RaysVouch({c}, 0, options));
+  EXPECT_TRUE(RaysVouch({c}, {}, options));
   c.rays.in_front_ratio = 0.5;
-  EXPECT_FALSE(RaysVouch({c}, 0, options));
+  EXPECT_FALSE(RaysVouch({c}, {}, options));
   c.rays.log_likelihood = 2.1 * options.vouch_lead_nats;
-  EXPECT_TRUE(RaysVouch({c}, 0, options));
+  EXPECT_TRUE(RaysVouch({c}, {}, options));
+}
+
+TEST(RaysVouch, AmongFurnitureNotFurtherAheadWhereWallsAndRaysHoldThePlace) {
+  const MatcherOptions options;
+  Candidate c = Good(1.5 * options.vouch_lead_nats);
+  c.rays.in_front_ratio = 0.5;
+  c.fit.consistent_planes = options.accept_min_planes;
+  EXPECT_FALSE(RaysVouch({c}, {}, options)) << "not asked for";
+  EXPECT_TRUE(MayVouch({c}, {}, options));
+  c.lead_nearby = options.accept_margin_nats - 1;
+  EXPECT_FALSE(MayVouch({c}, {}, options));
+  c.lead_nearby = options.accept_margin_nats;
+  EXPECT_TRUE(RaysVouch({c}, {}, options));
+  c.fit.consistent_planes -= 1;
+  EXPECT_FALSE(RaysVouch({c}, {}, options)) << "too few walls";
+}
+
+TEST(RaysVouch, BySmallerLeadsWhereNothingNearbyAndNoOtherSizeFits) {
+  const MatcherOptions options;
+  const double sharp = options.vouch_sharp_ratio * 300;
+  ASSERT_LT(1.1 * sharp, options.vouch_lead_ratio * 300);
+  const auto vouch = [&](double lead, double nearby, double size, double mirror) {
+    Candidate best = Good(300);
+    best.lead_nearby = nearby;
+    return RaysVouch({best, Good(300 - lead, 5)}, {300 - mirror, 300 - size}, options);
+  };
+  const double more = 1.1 * sharp, less = 0.9 * sharp;
+  EXPECT_TRUE(vouch(more, more, more, more));
+  EXPECT_FALSE(vouch(less, more, more, more)) << "another place";
+  EXPECT_FALSE(vouch(more, less, more, more)) << "a place nearby";
+  EXPECT_FALSE(vouch(more, more, less, more)) << "another size";
+  EXPECT_FALSE(vouch(more, more, more, less)) << "the mirror image";
+  EXPECT_FALSE(RaysVouch({Good(300), Good(300 - more, 5)}, {}, options)) << "nothing was asked for";
+  EXPECT_TRUE(MayVouch({Good(300), Good(300 - more, 5)}, {}, options));
+  EXPECT_FALSE(MayVouch({Good(300), Good(300 - less, 5)}, {}, options));
 }
 
 TEST(Doubt, FewPlanesAreEnoughOnlyWhereRaysVouch) {
@@ -228,6 +263,14 @@ TEST(SizeDoubt, WallsMustTellTheSizeByMoreThanRaysAreAgainstIt) {
   EXPECT_NE(SizeDoubt(c, std::nullopt, options), "");
 }
 
+TEST(SizeDoubt, NoWallsMakeUpForRaysThatFitAnotherSizeFarBetter) {
+  const MatcherOptions options;
+  Candidate c = Good(100);
+  c.fit.sigma_scale = options.accept_scale_error / 20;  // 200 nats
+  EXPECT_EQ(SizeDoubt(c, 100 * (1 + 0.9 * options.vouch_lead_ratio), options), "");
+  EXPECT_NE(SizeDoubt(c, 100 * (1 + 1.1 * options.vouch_lead_ratio), options), "");
+}
+
 TEST(Decide, AsksAPlanarMapForItsSize) {
   Candidate c = Good(100);
   c.fit.sigma_scale = 0.007;  // enough for another map
@@ -238,8 +281,23 @@ TEST(Decide, AsksAPlanarMapForItsSize) {
   c.fit.sigma_scale = 0.002;
   EXPECT_EQ(Decide({c}, planar, AGraph(), MatcherOptions()).verdict, Verdict::kUnique);
   WrongPlans larger;
-  larger.scaled = 140;
+  larger.scaled = 120;
   EXPECT_EQ(Decide({c}, planar, AGraph(), MatcherOptions(), larger).verdict, Verdict::kUnique) << "the walls tell it by more";
+}
+
+TEST(Decide, APlanarMapMustNotLieBetterBesideThePlaceEvenWhereWallsFixIt) {
+  const MatcherOptions options;
+  Candidate c = Good(100);
+  MapView planar;
+  planar.planar = true;
+  ASSERT_TRUE(WallsFixPlace(c.fit, options));
+  c.lead_nearby = -1;
+  EXPECT_EQ(Decide({c}, MapView(), AGraph(), options).verdict, Verdict::kUnique);
+  const MatchResult torn = Decide({c}, planar, AGraph(), options);
+  EXPECT_EQ(torn.verdict, Verdict::kSearching);
+  EXPECT_NE(torn.reason.find("beside it"), std::string::npos) << torn.reason;
+  c.lead_nearby = 1;
+  EXPECT_EQ(Decide({c}, planar, AGraph(), options).verdict, Verdict::kUnique);
 }
 
 TEST(StandsAlone, OnlyWhereAllOtherPlacesAreNoBetterThanOutside) {

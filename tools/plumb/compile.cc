@@ -19,6 +19,7 @@
 #include "tools/plumb/command.h"
 #include "tools/plumb/compile_limits.h"
 #include "tools/plumb/flag_names.h"
+#include "tools/plumb/inputs.h"
 #include "tools/plumb/outputs.h"
 
 namespace plumb::tools {
@@ -117,7 +118,11 @@ Status RunCompile(CompileFlags& flags, Session& session) {
   }
   if (result.has_internal_error())
     return session.Fail({ErrorCode::kInternal, fmt::format("the compiler failed on `{}`; see above", flags.plan)});
-  if (!result.graph) return session.Fail({ErrorCode::kPlanUnsuitable, fmt::format("`{}` gives no A-Graph; see above", flags.plan)});
+  if (!result.graph) {
+    const auto fits = CheckInputs({{flags.plan, InputKind::kPlan}});
+    if (!fits && fits.error().code == ErrorCode::kBadOption) return session.Fail(fits.error());
+    return session.Fail({ErrorCode::kPlanUnsuitable, fmt::format("`{}` gives no A-Graph; see above", flags.plan)});
+  }
   if (const auto written = WriteAGraphFile(*result.graph, flags.output); !written) return session.Fail(written.error());
   session.console.Info(Summary(*result.graph, flags.output));
   return result.diagnostics.has_errors() ? Status::kFindings : Status::kFine;

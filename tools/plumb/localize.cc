@@ -15,7 +15,9 @@
 #include "tools/plumb/command.h"
 #include "tools/plumb/config.h"
 #include "tools/plumb/flag_names.h"
+#include "tools/plumb/inputs.h"
 #include "tools/plumb/interrupt.h"
+#include "tools/plumb/outputs.h"
 #include "tools/plumb/replayer.h"
 #include "tools/plumb/start_hint_flags.h"
 #include "tools/plumb/updates.h"
@@ -83,10 +85,10 @@ RunInfo Describe(const LocalizeFlags& flags, const CLI::App& sub, const AGraph& 
   for (const TimingRow& t : results.timing) total_ms += t.stage == "latency" ? 0 : t.ms;
   if (info.scans > 0) info.ms_per_scan = total_ms / static_cast<double>(info.scans);
   if (info.localized_scans == 0) {
-    info.last_reason = localizer.map().keyframes.empty()        ? "too little was seen to begin a map"
-                       : localizer.T_plan_map()                  ? "found only after the last scan, when the graph had caught up"
-                       : !localizer.last_try()                   ? "the recording ended before the first try"
-                                                                 : localizer.last_try()->result.reason;
+    info.last_reason = localizer.map().keyframes.empty() ? "too little was seen to begin a map"
+                       : localizer.T_plan_map()          ? "found only after the last scan, when the graph had caught up"
+                       : !localizer.last_try()           ? "the recording ended before the first try"
+                                                         : localizer.last_try()->result.reason;
   }
   return info;
 }
@@ -112,17 +114,6 @@ Expected<void> WriteRun(const LocalizeFlags& flags, const AGraph& plan, const Re
   return {};
 }
 
-// Before hours of work: can the results be written?
-Expected<void> PrepareOutput(const std::string& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) return tl::unexpected(Error{ErrorCode::kFileUnwritable, fmt::format("cannot make `{}`: {}", folder, error.message())});
-  const std::string probe = (fs::path(folder) / ".writable").string();
-  if (auto written = WriteFileAtomically(probe, std::string_view()); !written) return written;
-  fs::remove(probe, error);
-  return {};
-}
-
 // The options with what the flags say; an empty text, or what is wrong with them.
 std::string CompleteOptions(LocalizeFlags& flags) {
   if (!(flags.tolerance_deg >= 0)) return fmt::format("--tolerance-angle {}; must be >= 0", flags.tolerance_deg);
@@ -135,6 +126,17 @@ std::string CompleteOptions(LocalizeFlags& flags) {
   for (const std::string& wrong : {flags.options.Check(), flags.replay.Check()}) {
     if (!wrong.empty()) return InFlags(wrong);
   }
+  return {};
+}
+
+// What only the recording tells of the flags.
+std::string CheckAgainst(const runtime::Recording& recording, const LocalizeFlags& flags) {
+  std::error_code error;
+  if (fs::equivalent(flags.output, flags.recording, error))
+    return fmt::format("--output {}; must be another folder than the recording's", flags.output);
+  const double length_s = recording.stamp_s(recording.size() - 1) - recording.stamp_s(0);
+  if (flags.replay.start_s > length_s)
+    return fmt::format("--start {}; must be within the recording, which is {:.1f} s long", flags.replay.start_s, length_s);
   return {};
 }
 
@@ -182,6 +184,8 @@ Status Conclude(const LocalizeFlags& flags, const RunInfo& info, const ReplayRes
 
 Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
   if (const std::string wrong = CompleteOptions(flags); !wrong.empty()) return session.Fail({ErrorCode::kBadOption, wrong});
+  const auto fit = CheckInputs({{flags.plan, InputKind::kAGraph}, {flags.recording, InputKind::kRecording}});
+  if (!fit) return session.Fail(fit.error());
   const auto plan = ReadAGraphFile(flags.plan);
   if (!plan) return session.Fail(plan.error());
   const auto hint = ParseStartHint(flags.near_m, flags.rooms, *plan);
@@ -189,11 +193,9 @@ Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
   flags.options.hint = *hint;
   const auto recording = runtime::Recording::Open(flags.recording);
   if (!recording) return session.Fail(recording.error());
-  std::error_code error;
-  if (fs::equivalent(flags.output, flags.recording, error)) {
-    return session.Fail({ErrorCode::kBadOption, fmt::format("--output {}; must be another folder than the recording's", flags.output)});
-  }
-  if (const auto ready = PrepareOutput(flags.output); !ready) return session.Fail(ready.error());
+  if (const std::string wrong = CheckAgainst(*recording, flags); !wrong.empty()) return session.Fail({ErrorCode::kBadOption, wrong});
+  const auto output = OutputFolder::Make(flags.output);  // before hours of work: can the results be written?
+  if (!output) return session.Fail(output.error());
 
   UpdateWriter updates(*plan, flags.updates, (fs::path(flags.output) / "deviations.json").string());
   if (const auto ready = updates.Open(); !ready) return session.Fail(ready.error());
@@ -256,7 +258,8 @@ void AddLocalize(CLI::App& app, Session& session) {
   sub->add_option_function<std::string>(
          "--mode", [flags](const std::string& name) { flags->options.joint.mode = *runtime::ParseMode(name); },
          "what is estimated: dis all; is no deviations; uc all walls weighted alike; so all at once, with no consensus on the place before")
-      ->check(CLI::IsMember(runtime::ModeNames()))->default_str(runtime::ModeName(o.joint.mode));
+      ->check(CLI::IsMember(runtime::ModeNames()))
+      ->default_str(runtime::ModeName(o.joint.mode));
   sub->add_option("--updates", flags->updates,
                   "write a line of JSON here after every solve while driving: t, verdict, T_plan_map, changed surfaces. SIGUSR1 writes "
                   "deviations.json as it is then");

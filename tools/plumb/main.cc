@@ -1,5 +1,6 @@
 // plumb: compiles building plans, localizes a robot in them and measures how the building deviates from its plan.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -25,14 +26,21 @@ struct PrintConfigRequest {
   const CLI::App* subcommand = nullptr;
 };
 
+// What stands where a subcommand should, and which one may have been meant.
+std::string WithoutSubcommand(const CLI::App& app, const std::vector<std::string>& arguments) {
+  const std::vector<std::string> names = SubcommandNames(app);
+  const auto word = std::find_if(arguments.begin(), arguments.end(), [](const std::string& a) { return !a.starts_with("-"); });
+  if (word == arguments.end()) return fmt::format("a subcommand is required: {}", fmt::join(names, ", "));
+  const std::string near = NearestName(*word, names);
+  return fmt::format("there is no subcommand `{}`; {}", *word,
+                     near.empty() ? fmt::format("there are {}", fmt::join(names, ", ")) : fmt::format("did you mean `{}`?", near));
+}
+
 // Adds what CLI11 does not say: the flag that may have been meant.
 std::string WithHint(const CLI::App& app, const CLI::ParseError& error, const std::vector<std::string>& arguments) {
   std::string message = error.what();
   const auto used = app.get_subcommands();
-  if (used.empty()) {
-    const std::string near = NearestName(arguments.front(), SubcommandNames(app));
-    return near.empty() ? message : fmt::format("there is no subcommand `{}`; did you mean `{}`?", arguments.front(), near);
-  }
+  if (used.empty()) return WithoutSubcommand(app, arguments);
   if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return message;
   const std::vector<std::string> names = FlagNames(*used.front());
   for (const std::string& argument : arguments) {

@@ -11,9 +11,10 @@
 #include <utility>
 
 #include "schema/agraph_reader.h"
-#include "tools/plumb/command.h"
 #include "tools/inspect/storeys.h"
+#include "tools/plumb/command.h"
 #include "tools/plumb/flag_names.h"
+#include "tools/plumb/inputs.h"
 #include "tools/simulate/sensor.h"
 
 namespace plumb::tools {
@@ -102,6 +103,7 @@ Status RunSimulate(const SimulateFlags& flags, Session& session) {
         {ErrorCode::kBadOption,
          fmt::format("`{}` holds a recording that no simulation wrote (it has no truth.json); --force replaces it", flags.output)});
   }
+  if (const auto fits = CheckInputs({{flags.plan, InputKind::kAGraph}}); !fits) return session.Fail(fits.error());
   const auto plan = ReadAGraphFile(flags.plan);
   if (!plan) return session.Fail(plan.error());
   if (!flags.storey.empty() && flags.storey != kAnyStorey) {
@@ -111,12 +113,11 @@ Status RunSimulate(const SimulateFlags& flags, Session& session) {
   }
   const auto done = Simulate(*plan, *options, flags.output, [&](size_t i, size_t n) { session.console.Progress("simulating", i, n); });
   if (!done) return session.Fail(done.error());
-  session.console.Info(
-      fmt::format("{}: {} scans in {:.1f} s over {:.1f} m, {} of {} rooms visited, {} walls off their plan, {} missing, {} unplanned, {} "
-                  "doorways elsewhere",
-                  flags.output, done->scans, done->duration_s, done->path_m, done->visited.size(),
-                  done->visited.size() + done->not_visited.size(), done->walls.size(), done->missing.size(), done->unplanned.size(),
-                  done->doorways_changed));
+  session.console.Info(fmt::format(
+      "{}: {} scans in {:.1f} s over {:.1f} m, {} of {} rooms visited, {} walls off their plan, {} missing, {} unplanned, {} "
+      "doorways elsewhere",
+      flags.output, done->scans, done->duration_s, done->path_m, done->visited.size(), done->visited.size() + done->not_visited.size(),
+      done->walls.size(), done->missing.size(), done->unplanned.size(), done->doorways_changed));
   return Status::kFine;
 }
 

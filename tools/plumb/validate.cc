@@ -8,6 +8,7 @@
 #include "tools/plumb/command.h"
 #include "tools/plumb/compile_limits.h"
 #include "tools/plumb/flag_names.h"
+#include "tools/plumb/inputs.h"
 #include "tools/plumb/outputs.h"
 
 namespace plumb::tools {
@@ -38,6 +39,10 @@ Status RunValidate(const ValidateFlags& flags, Session& session) {
     session.console.Print(text);
   } else if (const auto written = WriteFileAtomically(flags.output, text); !written) {
     return session.Fail(written.error());
+  }
+  if (report.outcome == compiler::Outcome::kBadInput && KindOf(flags.path) != InputKind::kAGraph) {
+    const auto fits = CheckInputs({{flags.path, InputKind::kPlan}});
+    if (!fits && fits.error().code == ErrorCode::kBadOption) session.console.Error(fits.error().message);
   }
   return static_cast<Status>(report.outcome);
 }

@@ -89,7 +89,8 @@ std::string Figure(const AGraph& plan, StoreyId storey, const Run& run, const st
       EscapeXml(plan.storeys[storey.index()].name), Decimal(sheet.width()), Decimal(sheet.height()), DrawFloorPlan(plan, storey, sheet),
       DrawSurfaces(plan, storey, run.deviations, limit_m, sheet) + DrawUnplanned(plan, storey, run.deviations, sheet),
       DrawTrajectory(plan, storey, run, sheet) + (open ? DrawPlaces(plan, storey, *open, sheet) : ""), DrawRoomLabels(plan, storey, sheet),
-      DrawWallNumbers(plan, storey, rows, sheet) + DrawDoorways(plan, storey, run.deviations, sheet), DrawScaleBar(sheet, 30, sheet.height() - 45));
+      DrawWallNumbers(plan, storey, rows, sheet) + DrawDoorways(plan, storey, run.deviations, sheet),
+      DrawScaleBar(sheet, 30, sheet.height() - 45));
 }
 
 // Storeys that the robot was or may be on; all of them where nothing is known.
@@ -131,9 +132,10 @@ std::string WallRowHtml(const AGraph& plan, const WallRow& row) {
   const Wall& wall = plan.walls[row.wall.index()];
   const SurfaceEntry& s = *row.surface;
   const std::string storey = wall.storey.valid() ? EscapeXml(plan.storeys[wall.storey.index()].name) : "";
-  const std::string chip =
-      row.number > 0 ? fmt::format("<span class=\"chip\" style=\"background:{}\">{}</span>",
-                                   s.status == "missing" ? kMissingColor : DeviationColor(s.translation_m, 0.01), row.number) : "";
+  const std::string chip = row.number > 0
+                               ? fmt::format("<span class=\"chip\" style=\"background:{}\">{}</span>",
+                                             s.status == "missing" ? kMissingColor : DeviationColor(s.translation_m, 0.01), row.number)
+                               : "";
   if (s.status == "missing") {
     return fmt::format(
         "<tr class=\"off\"><td class=\"t\">{}</td><td class=\"t\">{}<small>{}</small></td><td class=\"t\">{}</td><td class=\"t\">missing"
@@ -220,8 +222,9 @@ std::string RoomTable(const AGraph& plan, const Deviations& deviations) {
 
 std::string Footer(const RunInfo& info) {
   std::string options;
-  for (const Option& o : info.options)
-    fmt::format_to(std::back_inserter(options), "{}{} = {}", options.empty() ? "" : ", ", o.name, o.value);
+  for (const Option& o : info.options) {
+    if (!o.value.empty()) fmt::format_to(std::back_inserter(options), "{}{} = {}", options.empty() ? "" : ", ", o.name, o.value);
+  }
   return fmt::format(
       "<footer><dl><dt>plan</dt><dd>{}</dd><dt>drawn in</dt><dd>{}</dd><dt>SHA-256 of the "
       "drawing</dt><dd>{}</dd><dt>recording</dt><dd>{}</dd>"
@@ -261,9 +264,11 @@ Expected<std::string> RunToHtml(const AGraph& plan, const Run& run, const RunInf
       "<p class=\"sub\">where the robot was, and how far each wall stands from where the plan has "
       "it</p>\n{5}{6}<h2>Plan</h2>\n{7}{8}{9}{10}"
       "<script>\n{11}</script>\n</body></html>\n",
-      title, FloorPlanStyle(), DeviationStyle() + DoorwayStyle(), TrajectoryStyle() + PlaceStyle(), PageStyle(), Tiles(info, run.deviations, rows),
-      Notes(info, run.deviations), Figures(plan, run, rows) + (OpenTry(run) ? PlacesHtml(*OpenTry(run)) : ""),
-      WallTable(plan, rows) + DoorwayTable(plan, run.deviations) + UnplannedTable(plan, run.deviations), RoomTable(plan, run.deviations), Footer(info), PageScript());
+      title, FloorPlanStyle(), DeviationStyle() + DoorwayStyle(), TrajectoryStyle() + PlaceStyle(), PageStyle(),
+      Tiles(info, run.deviations, rows), Notes(info, run.deviations),
+      Figures(plan, run, rows) + (OpenTry(run) ? PlacesHtml(*OpenTry(run)) : ""),
+      WallTable(plan, rows) + DoorwayTable(plan, run.deviations) + UnplannedTable(plan, run.deviations), RoomTable(plan, run.deviations),
+      Footer(info), PageScript());
 }
 
 }  // namespace plumb::tools

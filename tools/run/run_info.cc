@@ -10,7 +10,18 @@
 
 namespace plumb::tools {
 
+namespace {
+
 using Json = nlohmann::ordered_json;
+
+// Text that is no JSON, as bytes of another encoding in a path, stays text.
+Json FromLiteral(const std::string& literal) {
+  if (literal.empty()) return nullptr;
+  Json value = Json::parse(literal, nullptr, false);
+  return value.is_discarded() ? Json(literal) : value;
+}
+
+}  // namespace
 
 Pace PaceOf(std::vector<double> latencies_ms) {
   Pace pace;
@@ -30,7 +41,7 @@ std::string RunInfoToJson(const RunInfo& info) {
   out["recording"] = info.recording_path;
   out["mode"] = info.mode;
   out["options"] = Json::object();
-  for (const Option& o : info.options) out["options"][o.name] = o.value;
+  for (const Option& o : info.options) out["options"][o.name] = FromLiteral(o.value);
   Json summary;
   summary["scans"] = info.scans;
   summary["localized_scans"] = info.localized_scans;
@@ -72,7 +83,7 @@ Expected<RunInfo> ParseRunInfo(const std::string& json, const std::string& sourc
     plan.at("source_sha256").get_to(info.plan_source_sha256);
     root.at("recording").get_to(info.recording_path);
     info.mode = root.value("mode", info.mode);
-    for (const auto& [name, value] : root.at("options").items()) info.options.push_back({name, value.get<std::string>()});
+    for (const auto& [name, value] : root.at("options").items()) info.options.push_back({name, value.is_null() ? "" : value.dump()});
     const Json& summary = root.at("summary");
     summary.at("scans").get_to(info.scans);
     summary.at("localized_scans").get_to(info.localized_scans);

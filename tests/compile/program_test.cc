@@ -112,6 +112,15 @@ TEST_F(Program, StrictMakesFindingsOfWarnings) {
   EXPECT_EQ(Plumb("validate --strict house.agraph").status, 0);
 }
 
+TEST_F(Program, ADoorwayThatJoinsNothingIsToldOfOnce) {
+  for (const char* code : {"PL7022", "PL7023"}) {
+    const Outcome compiled = Plumb("compile " + golden_ + code + ".ifc' -o a.agraph");
+    EXPECT_THAT(compiled.err, HasSubstr(code));
+    EXPECT_THAT(compiled.err, Not(HasSubstr("PL7105")));
+    EXPECT_THAT(Plumb("validate a.agraph").out, HasSubstr("PL7105")) << "the A-Graph is all that is known there";
+  }
+}
+
 TEST_F(Program, ExplainKnowsEveryCodeItLists) {
   const Outcome list = Plumb("explain");
   EXPECT_EQ(list.status, 0);

@@ -156,10 +156,10 @@ TEST_F(Program, InspectWritesEveryForm) {
   EXPECT_EQ(Plumb("inspect house.agraph --nav2 map --resolution 0").status, 2);
 }
 
-TEST_F(Program, InspectSaysWhenACutPassesAboveAllRooms) {
+TEST_F(Program, InspectSaysWhereItCutsBelowTheHeightAskedFor) {
   EXPECT_EQ(Plumb("inspect house.agraph --svg a.svg --section-height 2.5").err.find("ceilings"), std::string::npos);
   EXPECT_THAT(Plumb("inspect house.agraph --svg a.svg --section-height 2.6").err,
-              HasSubstr("Ground floor: the cut at 2.60 m passes above all ceilings (2.60 m at most)"));
+              HasSubstr("Ground floor: cut at 2.50 m, as 2.60 m is above all its ceilings"));
 }
 
 TEST_F(Program, FlippedBitsAreRefused) {

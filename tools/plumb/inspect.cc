@@ -1,10 +1,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -35,16 +32,13 @@ struct InspectFlags {
 
 std::string NameOf(const AGraph& graph, StoreyId storey) { return graph.storeys[storey.index()].name; }
 
-// A cut above all ceilings shows roofs over empty outlines.
-void SayWhatLiesBelowTheCut(const AGraph& graph, const std::vector<StoreyId>& storeys, double section_height_m, Console& console) {
+// Where a storey is cut lower than asked for.
+void SayWhereItIsCutLower(const AGraph& graph, const std::vector<StoreyId>& storeys, const FloorPlanOptions& options, Console& console) {
   for (const StoreyId storey : storeys) {
-    double highest_m = -std::numeric_limits<double>::infinity();
-    for (const Room& room : graph.rooms) {
-      if (room.storey == storey) highest_m = std::max(highest_m, room.ceiling_z_m - graph.storeys[storey.index()].elevation_m);
-    }
-    if (std::isfinite(highest_m) && section_height_m >= highest_m)
-      console.Info(fmt::format("{}: the cut at {:.2f} m passes above all ceilings ({:.2f} m at most)", NameOf(graph, storey),
-                               section_height_m, highest_m));
+    const double height_m = SectionHeight(graph, storey, options);
+    if (height_m < options.section_height_m)
+      console.Info(fmt::format("{}: cut at {:.2f} m, as {:.2f} m is above all its ceilings", NameOf(graph, storey), height_m,
+                               options.section_height_m));
   }
 }
 
@@ -52,7 +46,7 @@ Expected<void> WriteSvg(const AGraph& graph, const InspectFlags& flags, StoreyId
   const std::vector<StoreyId> storeys = chosen.valid() ? std::vector<StoreyId>{chosen} : DrawnStoreys(graph);
   if (auto written = WriteFileAtomically(flags.svg, std::string_view(FloorPlansToSvg(graph, storeys, flags.floor_plan))); !written)
     return written;
-  SayWhatLiesBelowTheCut(graph, storeys, flags.floor_plan.section_height_m, console);
+  SayWhereItIsCutLower(graph, storeys, flags.floor_plan, console);
   std::string names;
   for (const StoreyId storey : storeys) names += (names.empty() ? "" : ", ") + NameOf(graph, storey);
   console.Info(fmt::format("{}: floor plan of {}", flags.svg, names.empty() ? "nothing: no storey has walls or rooms" : names));

@@ -78,6 +78,50 @@ TEST(RoomLabels, LongNamesAreBrokenInNarrowRooms) {
   EXPECT_THAT(svg, HasSubstr(">waiting room</text>"));
 }
 
+TEST(PlanSheet, ScaleBarsHaveRoundSteps) {
+  const Eigen::Vector2d zero = Eigen::Vector2d::Zero();
+  for (const auto& [denominator, first, last] : {std::tuple(20.0, ">0.2<", ">1 m<"),
+                                                 {50.0, ">0.5<", ">2 m<"},
+                                                 {100.0, ">1<", ">5 m<"},
+                                                 {200.0, ">2<", ">10 m<"},
+                                                 {500.0, ">5<", ">20 m<"}}) {
+    const std::string bar = DrawScaleBar(Sheet(zero, zero, 1, denominator), 0, 0);
+    EXPECT_THAT(bar, HasSubstr(first));
+    EXPECT_THAT(bar, HasSubstr(last));
+  }
+}
+
+TEST(PlanSheet, IsCutBelowTheCeilings) {
+  AGraph g = TwoStoreys();
+  EXPECT_EQ(SectionHeight(g, StoreyId(0), {.section_height_m = 2.5}), 2.5);
+  EXPECT_DOUBLE_EQ(SectionHeight(g, StoreyId(0), {.section_height_m = 2.6}), 2.5);
+  EXPECT_EQ(SectionHeight(g, StoreyId(1), {.section_height_m = 9}), 9) << "it has no rooms";
+  EXPECT_THAT(FloorPlansToSvg(g, {StoreyId(0)}, {.section_height_m = 3}), HasSubstr("cut 2.50 m above"));
+  for (Room& room : g.rooms) room.ceiling_z_m = 0.15;
+  EXPECT_DOUBLE_EQ(SectionHeight(g, StoreyId(0), {}), 0.075);
+}
+
+// Two names that are as long as both rooms together.
+TEST(RoomLabels, DoNotCross) {
+  AGraph g = test::MakeHouse();
+  g.rooms.resize(2);
+  for (size_t i = 0; i < 2; ++i) {
+    const double x = 0.2 * static_cast<double>(i);
+    g.rooms[i].polygon = {{x, 0}, {x + 0.2, 0}, {x + 0.2, 0.2}, {x, 0.2}};
+    g.rooms[i].center = {x + 0.1, 0.1, 0};
+    g.rooms[i].name = i == 0 ? "Wardrobe" : "Pantry";
+    g.rooms[i].guid = "of the source";
+  }
+  const std::string svg = DrawRoomLabels(g, StoreyId(0), SheetOf(g, StoreyId(0)));
+  const auto y_of = [&svg](const std::string& name) {
+    const size_t end = svg.find(">" + name + "<"), begin = svg.rfind(" y=\"", end) + 4;
+    return std::stod(svg.substr(begin));
+  };
+  EXPECT_GT(std::abs(y_of("Wardrobe") - y_of("Pantry")), 13) << svg;
+  g.rooms[0].guid = g.rooms[1].guid = "";
+  EXPECT_EQ(DrawRoomLabels(g, StoreyId(0), SheetOf(g, StoreyId(0))), "") << "made names are left out";
+}
+
 TEST(RoomLabels, StandUprightInCorridors) {
   AGraph g = test::MakeHouse();
   g.rooms[0].name = "Corridor";

@@ -101,23 +101,26 @@ TEST(PlanSheet, IsCutBelowTheCeilings) {
   EXPECT_DOUBLE_EQ(SectionHeight(g, StoreyId(0), {}), 0.075);
 }
 
-// Two names that are as long as both rooms together.
+// Two upright labels of two lines each, 30 cm of the building wide, in rooms that are 20 cm apart.
 TEST(RoomLabels, DoNotCross) {
   AGraph g = test::MakeHouse();
   g.rooms.resize(2);
   for (size_t i = 0; i < 2; ++i) {
     const double x = 0.2 * static_cast<double>(i);
-    g.rooms[i].polygon = {{x, 0}, {x + 0.2, 0}, {x + 0.2, 0.2}, {x, 0.2}};
-    g.rooms[i].center = {x + 0.1, 0.1, 0};
+    g.rooms[i].polygon = {{x, 0}, {x + 0.2, 0}, {x + 0.2, 0.5}, {x, 0.5}};
+    g.rooms[i].center = {x + 0.1, 0.25, 0};
     g.rooms[i].name = i == 0 ? "Wardrobe" : "Pantry";
     g.rooms[i].guid = "of the source";
   }
   const std::string svg = DrawRoomLabels(g, StoreyId(0), SheetOf(g, StoreyId(0)));
-  const auto y_of = [&svg](const std::string& name) {
-    const size_t end = svg.find(">" + name + "<"), begin = svg.rfind(" y=\"", end) + 4;
-    return std::stod(svg.substr(begin));
+  const auto x_of = [&svg](const std::string& name) {
+    const size_t begin = svg.rfind("rotate(-90 ", svg.find(">" + name + "<"));
+    return std::stod(svg.substr(begin + 11));
   };
-  EXPECT_GT(std::abs(y_of("Wardrobe") - y_of("Pantry")), 13) << svg;
+  // The one has lost its area: three half lines from one to the other.
+  EXPECT_GE(std::abs(x_of("Wardrobe") - x_of("Pantry")), 3 * 0.5 * 1.15 * 13) << svg;
+  EXPECT_THAT(svg, HasSubstr("m²"));
+  EXPECT_EQ(svg.find("m²"), svg.rfind("m²"));
   g.rooms[0].guid = g.rooms[1].guid = "";
   EXPECT_EQ(DrawRoomLabels(g, StoreyId(0), SheetOf(g, StoreyId(0))), "") << "made names are left out";
 }

@@ -6,11 +6,11 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iterator>
-#include <numeric>
 #include <optional>
 #include <string_view>
 
 #include "schema/files.h"
+#include "tools/names/names.h"
 
 namespace plumb::tools {
 namespace {
@@ -179,28 +179,6 @@ std::vector<Option> OptionValues(const CLI::App& subcommand) {
     if (IsConfigurable(*option)) out.push_back({option->get_lnames().front(), Literal(*option)});
   }
   return out;
-}
-
-std::string NearestName(const std::string& name, const std::vector<std::string>& names) {
-  std::string best;
-  size_t best_edits = name.size() / 3 + 2;
-  for (const std::string& candidate : names) {
-    std::vector<size_t> row(candidate.size() + 1);
-    std::iota(row.begin(), row.end(), size_t{0});
-    for (size_t i = 0; i < name.size(); ++i) {
-      size_t diagonal = row[0]++;
-      for (size_t j = 0; j < candidate.size(); ++j) {
-        const size_t replaced = diagonal + (name[i] == candidate[j] ? 0 : 1);
-        diagonal = row[j + 1];
-        row[j + 1] = std::min({row[j] + 1, row[j + 1] + 1, replaced});
-      }
-    }
-    if (row.back() < best_edits) {
-      best_edits = row.back();
-      best = candidate;
-    }
-  }
-  return best;
 }
 
 std::vector<std::string> SubcommandNames(const CLI::App& app) {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "compiler/diagnostics/explanation.h"
+#include "tools/names/names.h"
 #include "tools/plumb/command.h"
-#include "tools/plumb/config.h"
 
 namespace plumb::tools {
 namespace {

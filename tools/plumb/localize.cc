@@ -191,6 +191,8 @@ Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
   const auto hint = ParseStartHint(flags.near_m, flags.rooms, *plan);
   if (!hint) return session.Fail(hint.error());
   flags.options.hint = *hint;
+  for (const RoomId room : hint->rooms)
+    session.console.Info(fmt::format("starts in `{}`, or so it is said", plan->rooms[room.index()].name));
   const auto recording = runtime::Recording::Open(flags.recording);
   if (!recording) return session.Fail(recording.error());
   if (const std::string wrong = CheckAgainst(*recording, flags); !wrong.empty()) return session.Fail({ErrorCode::kBadOption, wrong});
@@ -230,7 +232,8 @@ void AddLocalize(CLI::App& app, Session& session) {
   sub->add_option("--near", flags->near_m,
                   "the robot starts about here, plan frame; SIGMA is 2 unless given, m. A hint: what the robot sees may overrule it")
       ->type_name("X,Y[,SIGMA]");
-  sub->add_option("--room", flags->rooms, "the robot starts in a room of this name (or source id); may be given again, for either. A hint")
+  sub->add_option("--room", flags->rooms,
+                  "the robot starts in a room of this name, some words of it, or source id; may be given again, for either. A hint")
       ->type_name("NAME")
       ->allow_extra_args(false);
   sub->add_flag("--no-odometry", flags->no_odometry, "do without the recording's odometry.tum");

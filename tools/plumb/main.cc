@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "tools/names/names.h"
 #include "tools/plumb/command.h"
 #include "tools/plumb/config.h"
 #include "tools/plumb/second_program.h"

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <optional>
 
-#include "tools/plumb/config.h"
+#include "tools/inspect/rooms.h"
 #include "tools/plumb/flag_names.h"
 
 namespace plumb::tools {
@@ -36,16 +36,11 @@ Expected<runtime::StartHint> ParseStartHint(const std::string& near, const std::
     if (numbers->size() == 3) hint.near_sigma_m = (*numbers)[2];
   }
   for (const std::string& name : rooms) {
-    std::vector<std::string> names;
-    const size_t before = hint.rooms.size();
-    for (size_t i = 0; i < plan.rooms.size(); ++i) {
-      if (plan.rooms[i].name == name || plan.rooms[i].guid == name) hint.rooms.emplace_back(i);
-      names.push_back(plan.rooms[i].name);
+    const auto found = FindRooms(plan, name);
+    if (!found) return Fail(found.error().code, fmt::format("--room {}: {}", name, found.error().message));
+    for (const RoomId room : *found) {
+      if (std::find(hint.rooms.begin(), hint.rooms.end(), room) == hint.rooms.end()) hint.rooms.push_back(room);
     }
-    if (hint.rooms.size() > before) continue;
-    const std::string meant = NearestName(name, names);
-    return Fail(ErrorCode::kBadOption, fmt::format("--room {}: the plan has no such room{}; `plumb inspect` lists them", name,
-                                                   meant.empty() ? "" : fmt::format("; did you mean `{}`?", meant)));
   }
   if (const std::string wrong = hint.Check(); !wrong.empty()) return Fail(ErrorCode::kBadOption, InFlags(wrong));
   return hint;

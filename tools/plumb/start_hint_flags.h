@@ -10,7 +10,7 @@
 
 namespace plumb::tools {
 
-// `near`: "X,Y[,SIGMA]" in metres of the plan frame, may be empty; `rooms`: names or source ids of rooms of the plan.
+// `near`: "X,Y[,SIGMA]" in metres of the plan frame, may be empty; `rooms`: what FindRooms takes (tools/inspect/rooms.h).
 // Errors: kBadOption (not numbers; out of range; no such room, with the nearest name).
 [[nodiscard]] Expected<runtime::StartHint> ParseStartHint(const std::string& near, const std::vector<std::string>& rooms,
                                                           const AGraph& plan);

@@ -90,12 +90,5 @@ TEST_F(Config, ValuesAreLiteralsOfTomlAndJson) {
                 {"seed", "5"}, {"sensor", "\"vlp16\""}, {"quiet", "false"}, {"speed", "0.5"}, {"room", "[\"7\"]"}, {"open", "true"}}));
 }
 
-TEST(NearestName, IsEmptyWhereNothingIsNear) {
-  const std::vector<std::string> names = {"seed", "sensor", "sensor-height"};
-  EXPECT_EQ(NearestName("sensr", names), "sensor");
-  EXPECT_EQ(NearestName("sensor-hieght", names), "sensor-height");
-  EXPECT_EQ(NearestName("frobnicate", names), "");
-}
-
 }  // namespace
 }  // namespace plumb::tools

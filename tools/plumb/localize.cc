@@ -10,6 +10,7 @@
 #include "runtime/localizer/replay.h"
 #include "runtime/rooms/sgraph_json.h"
 #include "schema/agraph_reader.h"
+#include "schema/counted.h"
 #include "schema/files.h"
 #include "tools/plumb/as_built_cloud.h"
 #include "tools/plumb/command.h"
@@ -152,10 +153,9 @@ void SayNotLocalized(const std::string& folder, const RunInfo& info, const Repla
 }
 
 void SayLocalized(const LocalizeFlags& flags, const RunInfo& info, Console& console) {
-  console.Info(
-      fmt::format("{}: localized after {:.1f} s, {} of {} scans; {} walls deviate, {} are missing, {} unplanned; {:.0f} ms per scan",
-                  flags.output, *info.time_to_localize_s, info.localized_scans, info.scans, info.deviated_walls, info.missing_walls,
-                  info.unplanned_walls, info.ms_per_scan));
+  console.Info(fmt::format("{}: localized after {:.1f} s, {} of {} scans; {}, {} missing, {} unplanned; {:.0f} ms per scan", flags.output,
+                           *info.time_to_localize_s, info.localized_scans, info.scans, Counted(info.deviated_walls, "deviated wall"),
+                           info.missing_walls, info.unplanned_walls, info.ms_per_scan));
   if (flags.options.joint.mode == runtime::EstimationMode::kIs)
     console.Info("mode is: every wall is taken to stand as planned; deviations are not looked for");
   if (info.pace) {

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "schema/agraph_reader.h"
+#include "schema/counted.h"
 #include "tools/inspect/storeys.h"
 #include "tools/plumb/command.h"
 #include "tools/plumb/flag_names.h"
@@ -114,10 +115,10 @@ Status RunSimulate(const SimulateFlags& flags, Session& session) {
   const auto done = Simulate(*plan, *options, flags.output, [&](size_t i, size_t n) { session.console.Progress("simulating", i, n); });
   if (!done) return session.Fail(done.error());
   session.console.Info(fmt::format(
-      "{}: {} scans in {:.1f} s over {:.1f} m, {} of {} rooms visited, {} walls off their plan, {} missing, {} unplanned, {} "
-      "doorways elsewhere",
-      flags.output, done->scans, done->duration_s, done->path_m, done->visited.size(), done->visited.size() + done->not_visited.size(),
-      done->walls.size(), done->missing.size(), done->unplanned.size(), done->doorways_changed));
+      "{}: {} in {:.1f} s over {:.1f} m, {} of {} visited; {} off the plan, {} missing, {} unplanned, {} elsewhere or of another width",
+      flags.output, Counted(done->scans, "scan"), done->duration_s, done->path_m, done->visited.size(),
+      Counted(done->visited.size() + done->not_visited.size(), "room"), Counted(done->walls.size(), "wall"), done->missing.size(),
+      done->unplanned.size(), Counted(done->doorways_changed, "doorway")));
   return Status::kFine;
 }
 

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "runtime/numerics/rounded.h"
 #include "schema/files.h"
 
 namespace plumb::tools {
@@ -50,18 +51,18 @@ std::string RunInfoToJson(const RunInfo& info) {
   summary["planar"] = info.planar;
   summary["unordered_scans"] = info.unordered_scans;
   summary["interrupted"] = info.interrupted;
-  summary["time_to_localize_s"] = info.time_to_localize_s ? Json(*info.time_to_localize_s) : Json(nullptr);
-  summary["duration_s"] = info.duration_s;
+  summary["time_to_localize_s"] = info.time_to_localize_s ? Json(runtime::Rounded(*info.time_to_localize_s, 1e3)) : Json(nullptr);
+  summary["duration_s"] = runtime::Rounded(info.duration_s, 1e3);
   summary["keyframes"] = info.keyframes;
   summary["deviated_walls"] = info.deviated_walls;
   summary["missing_walls"] = info.missing_walls;
   summary["unplanned_walls"] = info.unplanned_walls;
-  summary["range_bias_m"] = info.range_bias_m;
-  summary["ms_per_scan"] = info.ms_per_scan;
+  summary["range_bias_m"] = runtime::Rounded(info.range_bias_m, 1e6);
+  summary["ms_per_scan"] = runtime::Rounded(info.ms_per_scan, 1e3);
   if (info.pace) {
     summary["pace"] = {{"rate", info.pace->rate},
-                       {"latency_p50_ms", info.pace->latency_p50_ms},
-                       {"latency_p99_ms", info.pace->latency_p99_ms},
+                       {"latency_p50_ms", runtime::Rounded(info.pace->latency_p50_ms, 1e3)},
+                       {"latency_p99_ms", runtime::Rounded(info.pace->latency_p99_ms, 1e3)},
                        {"held_solves", info.pace->held_solves},
                        {"unmapped_scans", info.pace->unmapped_scans}};
   }

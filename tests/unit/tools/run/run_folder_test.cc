@@ -82,6 +82,8 @@ TEST(RunInfo, ReadsBackAsWritten) {
   EXPECT_EQ(read->time_to_localize_s, info.time_to_localize_s);
   EXPECT_EQ(read->matcher, "graph");
   EXPECT_FALSE(read->pace);
+  info.time_to_localize_s = 1051.8 - 1000;  // 51.799999999999955
+  EXPECT_THAT(RunInfoToJson(info), HasSubstr("\"time_to_localize_s\": 51.8,"));
   info.time_to_localize_s.reset();
   EXPECT_FALSE(ParseRunInfo(RunInfoToJson(info), "run.json")->time_to_localize_s.has_value());
 }

@@ -33,6 +33,20 @@ TEST_F(Mistakes, AWordThatIsNoSubcommandIsNamed) {
   ExpectRefused("--quiet", "a subcommand is required: compile, ");
 }
 
+TEST_F(Mistakes, HelpIsGivenHoweverItIsAskedFor) {
+  for (const char* asked : {"help inspect", "inspect --help", "help localize", "help"}) {
+    const Outcome help = Plumb(asked);
+    EXPECT_EQ(help.status, 0) << asked;
+    EXPECT_THAT(help.out, HasSubstr("Usage: plumb ")) << asked;
+  }
+}
+
+TEST_F(Mistakes, HintsThatThePlanDoesNotHaveAreRefused) {
+  ExpectRefused("localize house.agraph rec -o run --near 100,2",
+                "--near 100.00,2.00; must be in the plan, which reaches from -0.30,-0.30 to 9.");
+  ExpectRefused("localize house.agraph rec -o run --room Z", "--room Z: the plan has no such room, but `A`, ");
+}
+
 TEST_F(Mistakes, ThingsOfAnotherKindAreNamedWithTheCommandThatWasMeant) {
   Write("plan.ifc", "ISO-10303-21;\n");
   Write("tour.bag", "#ROSBAG V2.0\n");
@@ -67,6 +81,7 @@ TEST_F(Mistakes, NoEmptyFolderStaysOfWhatFails) {
 TEST_F(Mistakes, OutputsThatCannotBeWrittenAreToldBeforeTheWork) {
   ExpectRefused("compile " + golden_ + "PL7103.ifc' -o none/a.agraph", "--output none/a.agraph; there is no folder `none`");
   ExpectRefused("compile " + golden_ + "PL7103.ifc' -o rec", "--output rec; is a folder");
+  ExpectRefused("simulate house.agraph -o ''", "--output: must not be empty");
 }
 
 TEST_F(Mistakes, DoctorSeesPastAMisnamedScanAndABrokenOdometry) {

@@ -90,7 +90,7 @@ bool IsPartOfName(std::string_view part, std::string_view name) {
 
 std::string NearestName(const std::string& name, const std::vector<std::string>& names) {
   std::string best;
-  size_t best_edits = name.size() / 3 + 2;
+  size_t best_edits = std::min(name.size() / 3 + 2, name.size());
   for (const std::string& candidate : names) {
     std::vector<size_t> row(candidate.size() + 1);
     std::iota(row.begin(), row.end(), size_t{0});

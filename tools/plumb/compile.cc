@@ -21,6 +21,7 @@
 #include "tools/plumb/flag_names.h"
 #include "tools/plumb/inputs.h"
 #include "tools/plumb/outputs.h"
+#include "tools/plumb/usage_errors.h"
 
 namespace plumb::tools {
 namespace {
@@ -174,7 +175,7 @@ void AddCompile(CLI::App& app, Session& session) {
   sub->add_option("--storey", flags->storeys, "a drawing's storey and the height of its floor, m; once for each")
       ->type_name("NAME=FILE@ELEVATION")
       ->allow_extra_args(false);
-  sub->add_option("-o,--output", flags->output, "the A-Graph to write")->required()->type_name("FILE.agraph");
+  sub->add_option("-o,--output", flags->output, "the A-Graph to write")->required()->check(NotEmpty)->type_name("FILE.agraph");
   sub->add_option("--diagnostics-json", flags->diagnostics_json, "write what the compiler has to say about the plan as JSON")
       ->type_name("FILE");
   sub->add_option("--max-per-kind", flags->max_per_kind, "print at most this many diagnostics of a kind");

@@ -22,6 +22,7 @@
 #include "tools/plumb/replayer.h"
 #include "tools/plumb/start_hint_flags.h"
 #include "tools/plumb/updates.h"
+#include "tools/plumb/usage_errors.h"
 #include "tools/run/ply.h"
 #include "tools/run/run_folder.h"
 #include "tools/run/run_info.h"
@@ -228,7 +229,7 @@ void AddLocalize(CLI::App& app, Session& session) {
                                 "  plumb localize house.agraph rec/ -o run/ --rate 1");
   sub->add_option("FILE.agraph", flags->plan, "the plan")->required();
   sub->add_option("REC", flags->recording, "recording folder: scans/*.pcd and, where there is one, odometry.tum")->required();
-  sub->add_option("-o,--output", flags->output, "the run folder to write")->required()->type_name("RUN");
+  sub->add_option("-o,--output", flags->output, "the run folder to write")->required()->check(NotEmpty)->type_name("RUN");
   sub->add_option("--near", flags->near_m,
                   "the robot starts about here, plan frame; SIGMA is 2 unless given, m. A hint: what the robot sees may overrule it")
       ->type_name("X,Y[,SIGMA]");

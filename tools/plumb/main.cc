@@ -1,9 +1,7 @@
 // plumb: compiles building plans, localizes a robot in them and measures how the building deviates from its plan.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -13,10 +11,10 @@
 #include <string>
 #include <vector>
 
-#include "tools/names/names.h"
 #include "tools/plumb/command.h"
 #include "tools/plumb/config.h"
 #include "tools/plumb/second_program.h"
+#include "tools/plumb/usage_errors.h"
 
 namespace plumb::tools {
 
@@ -26,33 +24,6 @@ namespace {
 struct PrintConfigRequest {
   const CLI::App* subcommand = nullptr;
 };
-
-// What stands where a subcommand should, and which one may have been meant.
-std::string WithoutSubcommand(const CLI::App& app, const std::vector<std::string>& arguments) {
-  const std::vector<std::string> names = SubcommandNames(app);
-  const auto word = std::find_if(arguments.begin(), arguments.end(), [](const std::string& a) { return !a.starts_with("-"); });
-  if (word == arguments.end()) return fmt::format("a subcommand is required: {}", fmt::join(names, ", "));
-  const std::string near = NearestName(*word, names);
-  return fmt::format("there is no subcommand `{}`; {}", *word,
-                     near.empty() ? fmt::format("there are {}", fmt::join(names, ", ")) : fmt::format("did you mean `{}`?", near));
-}
-
-// Adds what CLI11 does not say: the flag that may have been meant.
-std::string WithHint(const CLI::App& app, const CLI::ParseError& error, const std::vector<std::string>& arguments) {
-  std::string message = error.what();
-  const auto used = app.get_subcommands();
-  if (used.empty()) return WithoutSubcommand(app, arguments);
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return message;
-  const std::vector<std::string> names = FlagNames(*used.front());
-  for (const std::string& argument : arguments) {
-    if (!argument.starts_with("--")) continue;
-    const std::string name = argument.substr(2, argument.find('=') - 2);
-    if (std::find(names.begin(), names.end(), name) != names.end() || message.find(argument) == std::string::npos) continue;
-    const std::string near = NearestName(name, names);
-    if (!near.empty()) message += fmt::format("; did you mean `--{}`?", near);
-  }
-  return message;
-}
 
 #ifdef PLUMB_SECOND_PROGRAM
 void AddSubcommands(CLI::App& app, Session& session) {
@@ -90,7 +61,7 @@ int Parse(CLI::App& app, Session& session, std::vector<std::string> arguments) {
     return 0;
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
-    session.console.Error(WithHint(app, e, arguments));
+    session.console.Error(UsageError(app, e, arguments));
     const auto used = app.get_subcommands();
     fmt::print(stderr, "Run `plumb {}--help` for the options.\n", used.empty() ? "" : used.front()->get_name() + " ");
     return static_cast<int>(Status::kBadInput);
@@ -117,6 +88,11 @@ CLI::App* AddSubcommand(CLI::App& app, Session& session, const std::string& name
 }  // namespace plumb::tools
 
 int main(int argc, char** argv) {
+  char help[] = "--help";
+  if (argc > 1 && std::strcmp(argv[1], "help") == 0) {  // `plumb help inspect` is `plumb inspect --help`
+    argv[1] = argc > 2 ? argv[2] : help;
+    if (argc > 2) argv[2] = help;
+  }
   std::signal(SIGUSR1, SIG_IGN);  // a request for a report (interrupt.h) that comes early must not end what it asks about
   plumb::tools::Session session;
   try {

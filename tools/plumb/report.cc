@@ -10,6 +10,7 @@
 #include "tools/plumb/command.h"
 #include "tools/plumb/inputs.h"
 #include "tools/plumb/outputs.h"
+#include "tools/plumb/usage_errors.h"
 
 namespace plumb::tools {
 namespace {
@@ -50,7 +51,7 @@ void AddReport(CLI::App& app, Session& session) {
   CLI::App* sub = AddSubcommand(app, session, "report", "Draw a run: one HTML page with the plan, the deviations and the trajectory",
                                 "  plumb report run/ -o run/report.html");
   sub->add_option("RUN", flags->run, "folder written by `plumb localize`")->required();
-  sub->add_option("-o,--output", flags->output, "the page to write")->required()->type_name("FILE.html");
+  sub->add_option("-o,--output", flags->output, "the page to write")->required()->check(NotEmpty)->type_name("FILE.html");
   sub->add_option("--plan", flags->plan, "the plan, where it is no longer where run.json says")->type_name("FILE.agraph");
   sub->callback([flags, &session] { session.status = RunReport(*flags, session); });
 }

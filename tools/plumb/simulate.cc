@@ -16,6 +16,7 @@
 #include "tools/plumb/command.h"
 #include "tools/plumb/flag_names.h"
 #include "tools/plumb/inputs.h"
+#include "tools/plumb/usage_errors.h"
 #include "tools/simulate/sensor.h"
 
 namespace plumb::tools {
@@ -134,7 +135,7 @@ void AddSimulate(CLI::App& app, Session& session) {
   std::string sensors;
   for (const std::string& name : SensorNames()) sensors += (sensors.empty() ? "" : ", ") + name;
   sub->add_option("FILE.agraph", flags->plan, "the plan")->required();
-  sub->add_option("-o,--output", flags->output, "the recording folder to write")->required()->type_name("REC");
+  sub->add_option("-o,--output", flags->output, "the recording folder to write")->required()->check(NotEmpty)->type_name("REC");
   sub->add_option("--seed", o.seed, "of all random numbers; same seed, same recording");
   sub->add_option("--deviate", flags->deviate,
                   "walls that are built off the plan: their number, or a share of those that may be (25%), as far as they can")

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <optional>
 
@@ -23,6 +24,16 @@ std::optional<std::vector<double>> ParseNumbers(const std::string& text) {
   return numbers;
 }
 
+// A place far off the plan is in other coordinates, or a slip.
+std::string CheckNear(const runtime::StartHint& hint, const AGraph& plan) {
+  constexpr double kBeside_m = 20;
+  Eigen::AlignedBox2d plan_box;
+  for (const Surface& s : plan.surfaces) plan_box.extend(s.start).extend(s.end);
+  if (plan_box.isEmpty() || plan_box.exteriorDistance(*hint.near_m) <= std::max(kBeside_m, 3 * hint.near_sigma_m)) return {};
+  return fmt::format("--near {:.2f},{:.2f}; must be in the plan, which reaches from {:.2f},{:.2f} to {:.2f},{:.2f} m", hint.near_m->x(),
+                     hint.near_m->y(), plan_box.min().x(), plan_box.min().y(), plan_box.max().x(), plan_box.max().y());
+}
+
 }  // namespace
 
 Expected<runtime::StartHint> ParseStartHint(const std::string& near, const std::vector<std::string>& rooms, const AGraph& plan) {
@@ -34,6 +45,7 @@ Expected<runtime::StartHint> ParseStartHint(const std::string& near, const std::
     }
     hint.near_m = Eigen::Vector2d((*numbers)[0], (*numbers)[1]);
     if (numbers->size() == 3) hint.near_sigma_m = (*numbers)[2];
+    if (const std::string wrong = CheckNear(hint, plan); !wrong.empty()) return Fail(ErrorCode::kBadOption, wrong);
   }
   for (const std::string& name : rooms) {
     const auto found = FindRooms(plan, name);

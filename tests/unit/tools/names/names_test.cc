@@ -35,6 +35,7 @@ TEST(NearestName, IsEmptyWhereNothingIsNear) {
   EXPECT_EQ(NearestName("sensr", names), "sensor");
   EXPECT_EQ(NearestName("sensor-hieght", names), "sensor-height");
   EXPECT_EQ(NearestName("frobnicate", names), "");
+  EXPECT_EQ(NearestName("Z", {"A"}), "");
 }
 
 }  // namespace

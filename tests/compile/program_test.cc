@@ -159,7 +159,7 @@ TEST_F(Program, InspectWritesEveryForm) {
 TEST_F(Program, InspectSaysWhereItCutsBelowTheHeightAskedFor) {
   EXPECT_EQ(Plumb("inspect house.agraph --svg a.svg --section-height 2.5").err.find("ceilings"), std::string::npos);
   EXPECT_THAT(Plumb("inspect house.agraph --svg a.svg --section-height 2.6").err,
-              HasSubstr("Ground floor: cut at 2.50 m, as 2.60 m is above all its ceilings"));
+              HasSubstr("Ground floor: cut at 2.50 m, as 2.60 m is above all its rooms or walls"));
 }
 
 TEST_F(Program, FlippedBitsAreRefused) {

@@ -161,9 +161,14 @@ std::string FloorPlanOptions::Check() const {
 
 double SectionHeight(const AGraph& graph, StoreyId storey, const FloorPlanOptions& options) {
   constexpr double kBelow_m = 0.1;
+  const double zero_m = graph.storeys[storey.index()].elevation_m;
+  const bool has_rooms = std::any_of(graph.rooms.begin(), graph.rooms.end(), [&](const Room& room) { return room.storey == storey; });
   double highest_m = 0;
   for (const Room& room : graph.rooms) {
-    if (room.storey == storey) highest_m = std::max(highest_m, room.ceiling_z_m - graph.storeys[storey.index()].elevation_m);
+    if (room.storey == storey) highest_m = std::max(highest_m, room.ceiling_z_m - zero_m);
+  }
+  for (const Wall& wall : graph.walls) {
+    if (wall.storey == storey && !has_rooms) highest_m = std::max(highest_m, wall.z_max_m - zero_m);
   }
   const bool is_above = highest_m > 0 && options.section_height_m >= highest_m;
   return is_above ? std::max(highest_m - kBelow_m, 0.5 * highest_m) : options.section_height_m;

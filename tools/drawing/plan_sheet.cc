@@ -99,8 +99,10 @@ std::string DrawTitle(const AGraph& graph, StoreyId storey, const Sheet& sheet, 
 
 std::string DrawStorey(const AGraph& graph, StoreyId storey, const Sheet& sheet, const FloorPlanOptions& options, double width) {
   const double foot = sheet.height();
+  // In a window of its own: the cut passes through walls of other storeys, too, which may reach far beyond this one's.
   std::string out =
-      DrawFloorPlan(graph, storey, sheet, options) + DrawDimensions(graph, storey, sheet) + DrawRoomLabels(graph, storey, sheet);
+      fmt::format("<svg width=\"{}\" height=\"{}\">\n{}{}{}</svg>\n", Decimal(sheet.width()), Decimal(foot),
+                  DrawFloorPlan(graph, storey, sheet, options), DrawDimensions(graph, storey, sheet), DrawRoomLabels(graph, storey, sheet));
   out += DrawTitle(graph, storey, sheet, SectionHeight(graph, storey, options), kMargin + 20, foot + 30);
   out += DrawScaleBar(sheet, kMargin + 20, foot + 130);
   if (graph.true_north_rad) out += DrawNorth(*graph.true_north_rad, width - 140, foot + 90);

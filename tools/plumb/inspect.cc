@@ -37,7 +37,7 @@ void SayWhereItIsCutLower(const AGraph& graph, const std::vector<StoreyId>& stor
   for (const StoreyId storey : storeys) {
     const double height_m = SectionHeight(graph, storey, options);
     if (height_m < options.section_height_m)
-      console.Info(fmt::format("{}: cut at {:.2f} m, as {:.2f} m is above all its ceilings", NameOf(graph, storey), height_m,
+      console.Info(fmt::format("{}: cut at {:.2f} m, as {:.2f} m is above all its rooms or walls", NameOf(graph, storey), height_m,
                                options.section_height_m));
   }
 }

@@ -62,6 +62,17 @@ TEST(PlanSheet, HoldsAllStoreysThatHaveSomethingToDraw) {
   EXPECT_THAT(FloorPlansToSvg(AGraph{}, {}), HasSubstr("</svg>"));
 }
 
+// Else the cut through another storey's walls would lie over the sheets beside it.
+TEST(PlanSheet, ShowsEachPlanThroughAWindow) {
+  const AGraph g = TwoStoreys();
+  const std::string svg = FloorPlansToSvg(g, {StoreyId(0)});
+  const size_t window = svg.find("<svg width=\"2180.0\" height=");
+  ASSERT_NE(window, std::string::npos);
+  EXPECT_LT(window, svg.find("class=\"floor\""));
+  EXPECT_LT(svg.find("class=\"dim\""), svg.find("</svg>", window));
+  EXPECT_GT(svg.find("class=\"title\""), svg.find("</svg>", window));
+}
+
 TEST(PlanSheet, LargePlansGetASmallerScale) {
   AGraph g = TwoStoreys();
   g.walls[0].axis_end.x() += 50;
@@ -95,7 +106,11 @@ TEST(PlanSheet, IsCutBelowTheCeilings) {
   AGraph g = TwoStoreys();
   EXPECT_EQ(SectionHeight(g, StoreyId(0), {.section_height_m = 2.5}), 2.5);
   EXPECT_DOUBLE_EQ(SectionHeight(g, StoreyId(0), {.section_height_m = 2.6}), 2.5);
-  EXPECT_EQ(SectionHeight(g, StoreyId(1), {.section_height_m = 9}), 9) << "it has no rooms";
+  EXPECT_EQ(SectionHeight(g, StoreyId(1), {.section_height_m = 9}), 9) << "it has neither rooms nor walls";
+  g.walls[0].storey = StoreyId(1);
+  g.walls[0].z_max_m = 3.5;
+  EXPECT_DOUBLE_EQ(SectionHeight(g, StoreyId(1), {}), 0.4) << "a parapet";
+  g.walls[0].storey = StoreyId(0);
   EXPECT_THAT(FloorPlansToSvg(g, {StoreyId(0)}, {.section_height_m = 3}), HasSubstr("cut 2.50 m above"));
   for (Room& room : g.rooms) room.ceiling_z_m = 0.15;
   EXPECT_DOUBLE_EQ(SectionHeight(g, StoreyId(0), {}), 0.075);

@@ -20,8 +20,10 @@
 namespace plumb::runtime {
 namespace {
 
-constexpr double kMaxTilt_rad = 0.1745;   // the sensor starts this upright
-constexpr double kLevelingVoxel_m = 1.0;  // wide enough for two rings on the floor
+constexpr double kMaxTilt_rad = 0.6109;    // the sensor starts this near to what is expected
+constexpr double kGivenTilt_rad = 0.1745;  // a given odometry that is upright is this near to what is seen
+constexpr double kLeastSupport = 0.5;      // of what is seen, for a given odometry's word against what is expected
+constexpr double kLevelingVoxel_m = 1.0;   // wide enough for two rings on the floor
 constexpr int kMinFirstPoints = 200;
 constexpr int kMaxFailures = 10;     // in a row, scans without points not counted; then a new map begins at the predicted pose
 constexpr double kLeastShare = 0.4;  // of what the last scan found on the map, the next finds so much; less is another place
@@ -33,6 +35,8 @@ constexpr size_t kSearchPoints = 800;
 constexpr std::array<double, 7> kSearchYaw_rad = {0, 0.2, -0.2, 0.4, -0.4, 0.6, -0.6};
 constexpr double kMaxGivenSpeed_mps = 30.0;  // beyond, the given odometry has jumped
 constexpr double kPlanarSpacing_m = 0.04;    // of a planar laser's few points
+constexpr double kScanPoints = 4000;         // of a thinned scan: in a small room tilt and height rest on how many lie on it
+constexpr double kFinest = 0.3;              // of scan_spacing_m
 constexpr double kBootstrapSpeed_mps = 0.03, kBootstrapTurn_radps = 0.03;
 
 }  // namespace
@@ -42,6 +46,7 @@ std::string OdometryOptions::Check() const {
     return fmt::format("OdometryOptions.{} = {}; must be {}", field, value, rule);
   };
   if (!(voxel_m >= 0.1 && voxel_m <= 5)) return bad("voxel_m", voxel_m, "in [0.1, 5]");
+  if (!(up_in_lidar.allFinite() && up_in_lidar.norm() > 0.1)) return "OdometryOptions.up_in_lidar; must be a direction";
   if (!(scan_spacing_m >= 0.01 && scan_spacing_m <= 2)) return bad("scan_spacing_m", scan_spacing_m, "in [0.01, 2]");
   if (!(range_sigma_m >= 0.001 && range_sigma_m <= 0.2)) return bad("range_sigma_m", range_sigma_m, "in [0.001, 0.2]");
   if (!(min_range_m > 0)) return bad("min_range_m", min_range_m, "> 0");
@@ -64,6 +69,8 @@ struct Odometry::Impl {
     return m;
   }
 
+  [[nodiscard]] PreparedScan Prepare(const Scan& scan);
+  [[nodiscard]] std::optional<Eigen::Vector3d> UpAtStart(const PreparedScan& prepared, const std::optional<GivenMotion>& given) const;
   void Start(const PreparedScan& prepared, const std::optional<GivenMotion>& given);
   [[nodiscard]] SweepPrior PriorAbout(const SweepGaussian& predicted, double stamp_s, double sweep_s, bool given) const;
   [[nodiscard]] RegistrationResult Align(const PreparedScan& prepared, const SweepPrior& prior, double gap_s) const;
@@ -81,6 +88,7 @@ struct Odometry::Impl {
   SurfelMap map;
   std::optional<PreparedScan> first;  // until the second scan tells how fast the first one moved
   bool started = false;
+  double spacing_m = options.scan_spacing_m;  // that the next scan is thinned to
   // If the first scan told which way is up; else z of the odometry's frame is the sensor's own axis, which may lie.
   std::optional<LevelMotion> level;
   int failures = 0;  // in a row: nothing says where the robot went meanwhile
@@ -111,20 +119,45 @@ void Odometry::Impl::Insert(const PreparedScan& prepared, const SweepMotion& at)
   map.EndScan();
 }
 
-void Odometry::Impl::Start(const PreparedScan& prepared, const std::optional<GivenMotion>& given) {
+// What keeps about kScanPoints, judged by the scan before.
+PreparedScan Odometry::Impl::Prepare(const Scan& scan) {
+  PreparedScan prepared = PrepareScan(scan, spacing_m, options.min_range_m, options.max_range_m);
+  if (prepared.points.size() < kMinFirstPoints) return prepared;
+  const double used_m = spacing_m, ratio = static_cast<double>(prepared.points.size()) / kScanPoints;
+  spacing_m = std::clamp(used_m * std::sqrt(ratio), kFinest * options.scan_spacing_m, options.scan_spacing_m);
+  if (!started && spacing_m < used_m) prepared = PrepareScan(scan, spacing_m, options.min_range_m, options.max_range_m);
+  return prepared;
+}
+
+// In the lidar's frame. A given odometry may have any start frame: what it takes for up counts as far as floors and walls agree.
+std::optional<Eigen::Vector3d> Odometry::Impl::UpAtStart(const PreparedScan& prepared, const std::optional<GivenMotion>& given) const {
   SurfelMapOptions coarse = map.options();
   coarse.voxel_m = kLevelingVoxel_m;
   coarse.max_points = std::numeric_limits<double>::infinity();
   SurfelMap around(coarse);
   for (const Eigen::Vector3f& p : prepared.scan.points) around.Insert(p.cast<double>(), Eigen::Vector3d::Zero());
   around.EndScan();
+  const Eigen::Vector3d expected = options.up_in_lidar.normalized();
+  const std::optional<Upright> found = FindUp(around, expected, kMaxTilt_rad);
+  if (given) {
+    const Eigen::Vector3d told = given->T_start.linear().transpose() * Eigen::Vector3d::UnitZ();
+    const bool elsewhere = told.dot(expected) < std::cos(kMaxTilt_rad);
+    if (!found && !elsewhere) return told;
+    const std::optional<Upright> as_told = elsewhere ? FindUp(around, told, kGivenTilt_rad) : std::nullopt;
+    if (as_told && as_told->support >= std::max(kLeastSupport, found ? found->support : 0)) return as_told->up;
+  }
+  return found ? std::optional(found->up) : std::nullopt;
+}
+
+void Odometry::Impl::Start(const PreparedScan& prepared, const std::optional<GivenMotion>& given) {
   last = {};
   SweepMotion& motion = last.motion;
   last.stamp_s = prepared.scan.stamp_s;
   last.sweep_s = prepared.sweep_s;
   last.covariance.bottomRightCorner<6, 6>().diagonal() << Eigen::Vector3d::Constant(0.05 * 0.05), Eigen::Vector3d::Constant(0.1 * 0.1);
-  if (const std::optional<Eigen::Vector3d> up = FindUp(around, kMaxTilt_rad)) {
-    motion.T_start.linear() = LevelingRotation(*up);
+  const std::optional<Eigen::Vector3d> up = UpAtStart(prepared, given);
+  motion.T_start.linear() = LevelingRotation(up.value_or(options.up_in_lidar.normalized()));
+  if (up) {
     level.emplace(Eigen::Vector3d::UnitZ());
     last.covariance(11, 11) = 0;
   }
@@ -258,8 +291,9 @@ OdometryResult Odometry::Register(const Scan& scan, const std::optional<GivenMot
   if (!s.started && !s.planar) {
     if (const std::optional<Eigen::Vector3d> normal = ScanPlaneNormal(scan)) s.planar.emplace(s.options, *normal);
   }
-  const double spacing_m = s.planar ? std::min(kPlanarSpacing_m, s.options.scan_spacing_m) : s.options.scan_spacing_m;
-  const PreparedScan prepared = PrepareScan(scan, spacing_m, s.options.min_range_m, s.options.max_range_m);
+  const PreparedScan prepared =
+      s.planar ? PrepareScan(scan, std::min(kPlanarSpacing_m, s.options.scan_spacing_m), s.options.min_range_m, s.options.max_range_m)
+               : s.Prepare(scan);
   const std::optional<GivenMotion> given = Plausible(given_motion, prepared.sweep_s);
   if (s.planar) return s.planar->Register(prepared, given);
   result.timed = prepared.sweep_s > 0;

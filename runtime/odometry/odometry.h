@@ -4,7 +4,7 @@
 // assumed. The map keeps everything up to max_voxels: a robot that comes back is where it was. A scan that passes by the planes that it is
 // near, where those before it lay on them, is looked for anew about its prediction and left out if it fits nowhere: in the map, a misplaced
 // one would draw the next ones after it (runtime/METHOD.md, Misplaced scans). The first scan levels the frame
-// (leveling.h). Recordings of a planar laser, told by their first scan, go through planar/planar_odometry.h instead, which takes the scan
+// (leveling.h), helped by a given odometry that is upright. Recordings of a planar laser, told by their first scan, go through planar/planar_odometry.h instead, which takes the scan
 // plane as level.
 #pragma once
 
@@ -19,10 +19,11 @@ namespace plumb::runtime {
 
 struct OdometryOptions {
   double voxel_m = 0.5;         // edge of the map's voxels; each keeps Gaussians of the surfaces in it
-  double scan_spacing_m = 0.1;  // scans are thinned to about this distance between points before registration
+  double scan_spacing_m = 0.1;  // scans are thinned to this distance between points before registration, less where few would be left
   double range_sigma_m = 0.02;  // noise of a single return
   double min_range_m = 0.4, max_range_m = 80.0;
   int max_iterations = 20;
+  Eigen::Vector3d up_in_lidar = Eigen::Vector3d::UnitZ();  // away from gravity when the recording starts, to within 35 degrees
   int max_voxels = 120000;                  // of the map; beyond, the voxels unseen for longest are forgotten (about 1 kB each)
   [[nodiscard]] std::string Check() const;  // empty, or the field, its value and the rule
 };

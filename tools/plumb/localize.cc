@@ -20,7 +20,7 @@
 #include "tools/plumb/interrupt.h"
 #include "tools/plumb/outputs.h"
 #include "tools/plumb/replayer.h"
-#include "tools/plumb/start_hint_flags.h"
+#include "tools/plumb/start_flags.h"
 #include "tools/plumb/updates.h"
 #include "tools/plumb/usage_errors.h"
 #include "tools/run/ply.h"
@@ -38,7 +38,7 @@ struct LocalizeFlags {
   std::string plan, recording, output, updates;
   bool no_odometry = false;
   double tolerance_deg = 0.5;
-  std::string near_m;
+  std::string near_m, mount_deg;
   std::vector<std::string> rooms;
   double map_voxel_m = 0.02;
   runtime::LocalizerOptions options;
@@ -194,6 +194,9 @@ Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
   flags.options.hint = *hint;
   for (const RoomId room : hint->rooms)
     session.console.Info(fmt::format("starts in `{}`, or so it is said", plan->rooms[room.index()].name));
+  const auto up_in_lidar = ParseMount(flags.mount_deg);
+  if (!up_in_lidar) return session.Fail(up_in_lidar.error());
+  flags.options.odometry.up_in_lidar = *up_in_lidar;
   const auto recording = runtime::Recording::Open(flags.recording);
   if (!recording) return session.Fail(recording.error());
   if (const std::string wrong = CheckAgainst(*recording, flags); !wrong.empty()) return session.Fail({ErrorCode::kBadOption, wrong});
@@ -237,6 +240,9 @@ void AddLocalize(CLI::App& app, Session& session) {
                   "the robot starts in a room of this name, some words of it, or source id; may be given again, for either. A hint")
       ->type_name("NAME")
       ->allow_extra_args(false);
+  sub->add_option("--mount", flags->mount_deg,
+                  "how the lidar sits on the robot, deg; needed where it is over 35 off upright and no upright odometry.tum tells")
+      ->type_name("ROLL,PITCH");
   sub->add_flag("--no-odometry", flags->no_odometry, "do without the recording's odometry.tum");
   sub->add_option("--start", flags->replay.start_s, "leave out this much of the recording at its beginning, s");
   sub->add_option("--max-duration", flags->replay.max_duration_s, "stop after this much of the rest; 0: all of it, s");

@@ -173,25 +173,57 @@ TEST(Odometry, SameInputSamePoses) {
   for (size_t i = 0; i < a.poses.size(); ++i) EXPECT_EQ(a.poses[i].matrix(), b.poses[i].matrix()) << i;
 }
 
+// The sensor's first sweep in the house, turned by `R_world_lidar`.
+Scan SweepFrom(const Eigen::Matrix3d& R_world_lidar) {
+  const test::SyntheticLidar lidar(test::MakeHouse());
+  return lidar.Sweep(
+      [&](double) {
+        Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+        T.translation() << 7, 3, 1.0;
+        T.linear() = R_world_lidar;
+        return T;
+      },
+      0);
+}
+
+// Degrees between the frame's z axis and what is up.
+double Lean(const OdometryResult& r, const Eigen::Matrix3d& R_world_lidar) {
+  const Eigen::Vector3d up = r.T_odom_lidar.linear() * R_world_lidar.transpose() * Eigen::Vector3d::UnitZ();
+  return std::acos(std::clamp(up.z(), -1.0, 1.0));
+}
+
 TEST(Odometry, LevelsATiltedStart) {
   const Eigen::Matrix3d tilt =
-      (Eigen::AngleAxisd(0.08, Eigen::Vector3d::UnitX()) * Eigen::AngleAxisd(-0.06, Eigen::Vector3d::UnitY())).toRotationMatrix();
-  const test::SyntheticLidar lidar(test::MakeHouse());
+      (Eigen::AngleAxisd(0.4, Eigen::Vector3d::UnitX()) * Eigen::AngleAxisd(-0.2, Eigen::Vector3d::UnitY())).toRotationMatrix();
   Odometry odometry;
-  const OdometryResult r = odometry.Register(lidar.Sweep(
-                                                 [&](double) {
-                                                   Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-                                                   T.translation() << 7, 3, 1.0;
-                                                   T.linear() = tilt;
-                                                   return T;
-                                                 },
-                                                 0),
-                                             std::nullopt);
+  const OdometryResult r = odometry.Register(SweepFrom(tilt), std::nullopt);
   ASSERT_TRUE(r.ok);
-  const Eigen::Vector3d up = r.T_odom_lidar.linear() * tilt.transpose() * Eigen::Vector3d::UnitZ();
-  EXPECT_LT(std::acos(std::min(1.0, up.z())), 0.006);
+  EXPECT_LT(Lean(r, tilt), 0.006);
   EXPECT_NEAR(r.T_odom_lidar.translation().norm(), 0, 1e-12);
   EXPECT_NEAR(std::atan2(r.T_odom_lidar(1, 0), r.T_odom_lidar(0, 0)), 0, 1e-9);
+}
+
+TEST(Odometry, LevelsAnyMountThatIsTold) {
+  const Eigen::Vector3d x = Eigen::Vector3d::UnitX(), y = Eigen::Vector3d::UnitY();
+  for (const Eigen::Matrix3d& mount : {Eigen::AngleAxisd(M_PI, x).toRotationMatrix(), Eigen::AngleAxisd(1.5, y).toRotationMatrix(),
+                                       (Eigen::AngleAxisd(2.2, x) * Eigen::AngleAxisd(0.7, y)).toRotationMatrix()}) {
+    OdometryOptions options;
+    options.up_in_lidar = (Eigen::AngleAxisd(0.2, y) * mount).transpose() * Eigen::Vector3d::UnitZ();  // roughly
+    Odometry by_option(options);
+    EXPECT_LT(Lean(by_option.Register(SweepFrom(mount), std::nullopt), mount), 0.006);
+
+    Odometry by_odometry;
+    Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+    T.linear() = Eigen::AngleAxisd(0.8, Eigen::Vector3d::UnitZ()) * mount;
+    EXPECT_LT(Lean(by_odometry.Register(SweepFrom(mount), Odometry::GivenMotion{T, T}), mount), 0.006);
+  }
+}
+
+TEST(Odometry, AGivenOdometryThatIsNotUprightIsNotBelieved) {
+  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+  T.linear() = Eigen::AngleAxisd(0.9, Eigen::Vector3d(1, 1, 0).normalized()).toRotationMatrix();
+  Odometry odometry;
+  EXPECT_LT(Lean(odometry.Register(SweepFrom(Eigen::Matrix3d::Identity()), Odometry::GivenMotion{T, T}), Eigen::Matrix3d::Identity()), 0.006);
 }
 
 TEST(Odometry, DeskewedPointsLieOnTheHouse) {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <random>
 
-#include "runtime/odometry/leveling.h"
 #include "runtime/odometry/voxel_index.h"
 
 namespace plumb::runtime {
@@ -82,44 +81,6 @@ TEST(SurfelMap, DistanceVarianceGrowsAwayFromThePoints) {
   const double at_mean_m2 = s->DistanceVariance(s->mean, 0.02);
   EXPECT_NEAR(at_mean_m2, 4e-4 * (1 + 1 / s->count), 1e-4);
   EXPECT_GT(s->DistanceVariance(s->mean + 2 * s->major, 0.02), 1.5 * at_mean_m2);
-}
-
-TEST(Leveling, FindsTheTiltFromTheFloorAlone) {
-  SurfelMapOptions options;
-  options.voxel_m = 1.0;
-  SurfelMap map(options);
-  const Eigen::Matrix3d R = Eigen::AngleAxisd(0.1, Eigen::Vector3d(0.6, 0.8, 0)).toRotationMatrix();
-  for (double x = -3; x < 3; x += 0.08) {
-    for (double y = -3; y < 3; y += 0.09) map.Insert(R * Eigen::Vector3d(x, y, -1), Eigen::Vector3d::Zero());
-  }
-  map.EndScan();
-  const std::optional<Eigen::Vector3d> up = FindUp(map, 0.17);
-  ASSERT_TRUE(up);
-  EXPECT_LT((*up - R.col(2)).norm(), 1e-3);
-  const Eigen::Matrix3d L = LevelingRotation(*up);
-  EXPECT_LT((L * *up - Eigen::Vector3d::UnitZ()).norm(), 1e-9);
-  EXPECT_NEAR(std::atan2(L(1, 0), L(0, 0)), 0, 1e-9);
-}
-
-TEST(Leveling, FindsTheTiltFromWallsAlone) {
-  SurfelMap map;
-  const Eigen::Matrix3d R = Eigen::AngleAxisd(-0.08, Eigen::Vector3d(0.8, 0.6, 0)).toRotationMatrix();
-  for (double a = -2; a < 2; a += 0.05) {
-    for (double z = -1; z < 1; z += 0.06) {
-      map.Insert(R * Eigen::Vector3d(2, a, z), Eigen::Vector3d::Zero());
-      map.Insert(R * Eigen::Vector3d(a, 2, z), Eigen::Vector3d::Zero());
-    }
-  }
-  map.EndScan();
-  const std::optional<Eigen::Vector3d> up = FindUp(map, 0.17);
-  ASSERT_TRUE(up);
-  EXPECT_LT((*up - R.col(2)).norm(), 3e-3);
-}
-
-TEST(Leveling, OneWallSaysNothing) {
-  SurfelMap map;
-  AddWall(&map, 2, Eigen::Vector3d::Zero());
-  EXPECT_FALSE(FindUp(map, 0.17));
 }
 
 }  // namespace

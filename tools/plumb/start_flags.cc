@@ -1,10 +1,12 @@
-#include "tools/plumb/start_hint_flags.h"
+#include "tools/plumb/start_flags.h"
 
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
+#include <numbers>
 #include <optional>
 
 #include "tools/inspect/rooms.h"
@@ -56,6 +58,18 @@ Expected<runtime::StartHint> ParseStartHint(const std::string& near, const std::
   }
   if (const std::string wrong = hint.Check(); !wrong.empty()) return Fail(ErrorCode::kBadOption, InFlags(wrong));
   return hint;
+}
+
+Expected<Eigen::Vector3d> ParseMount(const std::string& mount) {
+  if (mount.empty()) return Eigen::Vector3d(Eigen::Vector3d::UnitZ());
+  const auto numbers = ParseNumbers(mount);
+  if (!numbers || numbers->size() != 2 || !std::isfinite((*numbers)[0]) || !std::isfinite((*numbers)[1])) {
+    return Fail(ErrorCode::kBadOption, fmt::format("--mount {}; must be ROLL,PITCH in degrees", mount));
+  }
+  constexpr double kDegree = std::numbers::pi / 180;
+  const Eigen::AngleAxisd roll((*numbers)[0] * kDegree, Eigen::Vector3d::UnitX());
+  const Eigen::AngleAxisd pitch((*numbers)[1] * kDegree, Eigen::Vector3d::UnitY());
+  return Eigen::Vector3d((pitch * roll).inverse() * Eigen::Vector3d::UnitZ());
 }
 
 }  // namespace plumb::tools

@@ -1,6 +1,7 @@
-// --near and --room of `plumb localize`.
+// --near, --room and --mount of `plumb localize`: what is known of how it starts.
 #pragma once
 
+#include <Eigen/Core>
 #include <string>
 #include <vector>
 
@@ -14,5 +15,9 @@ namespace plumb::tools {
 // Errors: kBadOption (not numbers; out of range; far off the plan; no such room, with the nearest name).
 [[nodiscard]] Expected<runtime::StartHint> ParseStartHint(const std::string& near, const std::vector<std::string>& rooms,
                                                           const AGraph& plan);
+
+// `mount`: "ROLL,PITCH" of the lidar on the robot in degrees, first about x, then about the robot's y; may be empty. The direction away from
+// gravity in the lidar's frame. Errors: kBadOption (not numbers).
+[[nodiscard]] Expected<Eigen::Vector3d> ParseMount(const std::string& mount);
 
 }  // namespace plumb::tools

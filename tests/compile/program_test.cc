@@ -185,6 +185,9 @@ TEST_F(Program, ConfigFilesHaveTheNamesOfTheFlags) {
   EXPECT_EQ(Plumb("inspect house.agraph --nav2 map --config plumb.toml").status, 0);
   EXPECT_THAT(Read("map/map.yaml"), HasSubstr("resolution: 0.2\n"));
   EXPECT_EQ(Plumb("validate --config plumb.toml " + golden_ + "PL7103.ifc'").status, 1);
+  Write("loud.toml", "quiet = false\n");
+  EXPECT_EQ(Plumb("inspect house.agraph --svg a.svg --config loud.toml -q").err, "");
+  EXPECT_NE(Plumb("inspect house.agraph --svg a.svg --config loud.toml").err, "");
   Write("wrong.toml", "[inspect]\nresolutoin = 0.2\n");
   const Outcome wrong = Plumb("inspect house.agraph --config wrong.toml");
   EXPECT_EQ(wrong.status, 2);

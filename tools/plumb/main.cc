@@ -81,7 +81,8 @@ CLI::App* AddSubcommand(CLI::App& app, Session& session, const std::string& name
   sub->add_flag_callback(
       "--print-config", [sub] { throw PrintConfigRequest{sub}; }, "print the options in force as TOML, and stop");
   sub->add_flag_function(
-      "-q,--quiet", [&session](int64_t count) { session.console.set_quiet(count > 0); }, "say nothing but results and errors");
+         "-q,--quiet", [&session](int64_t count) { session.console.set_quiet(count > 0); }, "say nothing but results and errors")
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // -q after a configuration file with quiet = false
   return sub;
 }
 

@@ -220,6 +220,7 @@ TEST_F(Program, HelpHasExamplesAndUsageErrorsAreBadInput) {
     const Outcome help = Plumb(std::string(subcommand) + " --help");
     EXPECT_EQ(help.status, 0);
     EXPECT_THAT(help.out, HasSubstr("Examples:\n  plumb " + std::string(subcommand)));
+    EXPECT_THAT(help.out, Not(HasSubstr("=[]")));
   }
   EXPECT_EQ(Plumb("validate").status, 2);
   EXPECT_EQ(Plumb("validate house.agraph --format xml").status, 2);

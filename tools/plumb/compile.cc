@@ -141,8 +141,11 @@ void AddCompileOptions(CLI::App& subcommand, compiler::CompileOptions& options) 
   subcommand.add_option("--up", options.up, "of meshes: x, y or z; else as stated by the file or seen in its walls");
   subcommand.add_option("--model-path", options.model_path, "of Gazebo worlds: folders besides the world's own that hold included models")
       ->envname("GAZEBO_MODEL_PATH")
+      ->type_name("FOLDER")
+      ->default_str("")
       ->delimiter(':');
-  subcommand.add_option("--divide-open-plans", options.divide_open_plans, "along the plan's spaces where no walls do; else one room");
+  subcommand.add_option("--divide-open-plans", options.divide_open_plans, "along the plan's spaces where no walls do; else one room")
+      ->default_str("true");
   compiler::DrawingFileOptions& drawing = options.drawing;
   subcommand.add_option("--scale", drawing.scale_m,
                         "of a drawing: metres of one unit of the file, instead of --unit; for SVG the unit of its viewBox");
@@ -171,9 +174,12 @@ void AddCompile(CLI::App& app, Session& session) {
                     "Status 2: nothing is written: the file is damaged, too large, of no schema that is read, or has no building in it.");
   sub->add_option("PLAN", flags->plans,
                   "the plan: IFC (STEP), a drawing (DXF, SVG), a mesh (OBJ, PLY, STL, glTF, COLLADA) or a Gazebo world (SDF); plain, "
-                  "gzipped or in a ZIP archive; with --storey it need not be named again");
+                  "gzipped or in a ZIP archive; with --storey it need not be named again")
+      ->type_name("")
+      ->default_str("");
   sub->add_option("--storey", flags->storeys, "a drawing's storey and the height of its floor, m; once for each")
       ->type_name("NAME=FILE@ELEVATION")
+      ->default_str("")
       ->allow_extra_args(false);
   sub->add_option("-o,--output", flags->output, "the A-Graph to write")->required()->check(NotEmpty)->type_name("FILE.agraph");
   sub->add_option("--diagnostics-json", flags->diagnostics_json, "write what the compiler has to say about the plan as JSON")

@@ -163,7 +163,7 @@ void AddDoctor(CLI::App& app, Session& session) {
   auto folder = std::make_shared<std::string>();
   CLI::App* sub =
       AddSubcommand(app, session, "doctor", "Check a recording folder: rates, gaps, missing fields, odometry", "  plumb doctor rec/");
-  sub->add_option("REC", *folder, "recording folder")->required();
+  sub->add_option("REC", *folder, "recording folder")->required()->type_name("");
   sub->callback([folder, &session] { session.status = RunDoctor(*folder, session); });
 }
 

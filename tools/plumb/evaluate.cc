@@ -85,7 +85,7 @@ void AddEvaluate(CLI::App& app, Session& session) {
   CLI::App* sub = AddSubcommand(app, session, "evaluate", "Compare a run with the truth of its recording",
                                 "  plumb evaluate run/ --truth rec/\n"
                                 "  plumb evaluate run/ --truth rec/ --json result.json --require-localized-within 20 --require-ate 0.06");
-  sub->add_option("RUN", flags->run, "folder written by `plumb localize`")->required();
+  sub->add_option("RUN", flags->run, "folder written by `plumb localize`")->required()->type_name("");
   sub->add_option("--truth", flags->truth, "recording folder with truth.tum and truth.json")->required()->type_name("REC");
   sub->add_option("--json", flags->json, "write the figures as JSON too")->type_name("FILE");
   sub->add_option("--wrong-fix-distance", flags->options.wrong_fix_m, "a pose further off while localized is a wrong fix, m");

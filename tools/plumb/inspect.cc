@@ -118,7 +118,7 @@ void AddInspect(CLI::App& app, Session& session) {
                                 "  plumb inspect house.agraph --svg ground.svg --storey \"Ground floor\"\n"
                                 "  plumb inspect house.agraph --graphml house.graphml\n"
                                 "  plumb inspect house.agraph --nav2 map/ --storey 0 --sensor-height 0.25 --resolution 0.02");
-  sub->add_option("FILE.agraph", flags->path, "the A-Graph")->required();
+  sub->add_option("FILE.agraph", flags->path, "the A-Graph")->required()->type_name("");
   sub->add_flag("--json", flags->json, "print it as JSON");
   sub->add_option("--svg", flags->svg, "draw the floor plans of all storeys, or of --storey, to scale into this file")
       ->type_name("FILE.svg");

@@ -230,8 +230,10 @@ void AddLocalize(CLI::App& app, Session& session) {
                                 "  plumb localize house.agraph rec/ -o run/\n"
                                 "  plumb localize house.agraph rec/ -o run/ --no-odometry --tolerance 0.03\n"
                                 "  plumb localize house.agraph rec/ -o run/ --rate 1");
-  sub->add_option("FILE.agraph", flags->plan, "the plan")->required();
-  sub->add_option("REC", flags->recording, "recording folder: scans/*.pcd and, where there is one, odometry.tum")->required();
+  sub->add_option("FILE.agraph", flags->plan, "the plan")->required()->type_name("");
+  sub->add_option("REC", flags->recording, "recording folder: scans/*.pcd and, where there is one, odometry.tum")
+      ->required()
+      ->type_name("");
   sub->add_option("-o,--output", flags->output, "the run folder to write")->required()->check(NotEmpty)->type_name("RUN");
   sub->add_option("--near", flags->near_m,
                   "the robot starts about here, plan frame; SIGMA is 2 unless given, m. A hint: what the robot sees may overrule it")
@@ -239,6 +241,7 @@ void AddLocalize(CLI::App& app, Session& session) {
   sub->add_option("--room", flags->rooms,
                   "the robot starts in a room of this name, some words of it, or source id; may be given again, for either. A hint")
       ->type_name("NAME")
+      ->default_str("")
       ->allow_extra_args(false);
   sub->add_option("--mount", flags->mount_deg,
                   "how the lidar sits on the robot, deg; needed where it is over 35 off upright and no upright odometry.tum tells")
@@ -272,7 +275,8 @@ void AddLocalize(CLI::App& app, Session& session) {
       ->default_str(runtime::ModeName(o.joint.mode));
   sub->add_option("--updates", flags->updates,
                   "write a line of JSON here after every solve while driving: t, verdict, T_plan_map, changed surfaces. SIGUSR1 writes "
-                  "deviations.json as it is then");
+                  "deviations.json as it is then")
+      ->type_name("FILE");
   sub->add_option("--map-voxel", flags->map_voxel_m, "map.ply keeps one point of each cube with this edge, m");
   sub->callback([flags, sub, &session] { session.status = RunLocalize(*flags, *sub, session); });
 }

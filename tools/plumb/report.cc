@@ -50,7 +50,7 @@ void AddReport(CLI::App& app, Session& session) {
   auto flags = std::make_shared<ReportFlags>();
   CLI::App* sub = AddSubcommand(app, session, "report", "Draw a run: one HTML page with the plan, the deviations and the trajectory",
                                 "  plumb report run/ -o run/report.html");
-  sub->add_option("RUN", flags->run, "folder written by `plumb localize`")->required();
+  sub->add_option("RUN", flags->run, "folder written by `plumb localize`")->required()->type_name("");
   sub->add_option("-o,--output", flags->output, "the page to write")->required()->check(NotEmpty)->type_name("FILE.html");
   sub->add_option("--plan", flags->plan, "the plan, where it is no longer where run.json says")->type_name("FILE.agraph");
   sub->callback([flags, &session] { session.status = RunReport(*flags, session); });

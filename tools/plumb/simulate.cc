@@ -134,7 +134,7 @@ void AddSimulate(CLI::App& app, Session& session) {
                     "  plumb simulate house.agraph --deviate 0 --duration 60 --max-duration 60 -o short/");
   std::string sensors;
   for (const std::string& name : SensorNames()) sensors += (sensors.empty() ? "" : ", ") + name;
-  sub->add_option("FILE.agraph", flags->plan, "the plan")->required();
+  sub->add_option("FILE.agraph", flags->plan, "the plan")->required()->type_name("");
   sub->add_option("-o,--output", flags->output, "the recording folder to write")->required()->check(NotEmpty)->type_name("REC");
   sub->add_option("--seed", o.seed, "of all random numbers; same seed, same recording");
   sub->add_option("--deviate", flags->deviate,

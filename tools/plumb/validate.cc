@@ -56,7 +56,7 @@ void AddValidate(CLI::App& app, Session& session) {
                                 "  plumb validate plan.svg --scale 0.01\n"
                                 "  plumb validate house.agraph --format json\n"
                                 "  plumb validate house.ifc --strict --format sarif -o house.sarif");
-  sub->add_option("PLAN|FILE.agraph", flags->path, "what to check")->required();
+  sub->add_option("PLAN|FILE.agraph", flags->path, "what to check")->required()->type_name("");
   sub->add_option("--format", flags->format, "of what is printed: text, json or sarif (2.1.0)")
       ->check(CLI::IsMember({"text", "json", "sarif"}));
   sub->add_flag("--json", flags->json, "the same as --format json");

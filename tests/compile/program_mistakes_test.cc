@@ -73,6 +73,7 @@ TEST_F(Mistakes, AStartBehindTheEndOfARecordingIsToldItsLength) {
 
 TEST_F(Mistakes, NoEmptyFolderStaysOfWhatFails) {
   ExpectRefused("localize house.agraph rec -o deep/run --updates none/updates.jsonl", "none/updates.jsonl");
+  ExpectRefused("simulate house.agraph --deviate 99 -o deep/rec", "of 99 walls can deviate");
   ExpectRefused("inspect house.agraph --nav2 deep/map --resolution 0.001 --storey 9", "no storey is `9`");
   for (const auto& scan : fs::directory_iterator(folder_ / "rec/scans")) fs::resize_file(scan.path(), 10);
   ExpectRefused("localize house.agraph rec -o deep/run", "skipped");

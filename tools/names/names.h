@@ -20,7 +20,8 @@ namespace plumb::tools {
 // `part` is one or more of the words of `name`, one after the other: "Kueche" of "6 Küche". Never if it has no word.
 [[nodiscard]] bool IsPartOfName(std::string_view part, std::string_view name);
 
-// The one of `names` that is nearest to `name` by edits; empty where none is near (more edits than one, plus a third of its letters, or one for each).
+// The one of `names` that is nearest to `name` by edits; empty where none is near (more edits than one, plus a third of its letters, or one for
+// each of them).
 [[nodiscard]] std::string NearestName(const std::string& name, const std::vector<std::string>& names);
 
 }  // namespace plumb::tools

@@ -16,6 +16,7 @@
 #include "tools/plumb/command.h"
 #include "tools/plumb/flag_names.h"
 #include "tools/plumb/inputs.h"
+#include "tools/plumb/outputs.h"
 #include "tools/plumb/usage_errors.h"
 #include "tools/simulate/sensor.h"
 
@@ -113,6 +114,8 @@ Status RunSimulate(const SimulateFlags& flags, Session& session) {
     if (!storey) return session.Fail(storey.error());
     options->storey = static_cast<int>(storey->index());
   }
+  const auto output = OutputFolder::Make((std::filesystem::path(flags.output) / "scans").string());
+  if (!output) return session.Fail(output.error());
   const auto done = Simulate(*plan, *options, flags.output, [&](size_t i, size_t n) { session.console.Progress("simulating", i, n); });
   if (!done) return session.Fail(done.error());
   session.console.Info(fmt::format(

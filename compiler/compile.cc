@@ -190,7 +190,7 @@ void ReleaseSolidsOfPasses(PlanIr& plan) {
   ReturnFreedMemory();
 }
 
-// What checks of the graph know by GUID only is shown where it stands in the source.
+// What checks of the graph know by GUID only is shown where it stands in the source. Of doorways that join nothing the passes have told.
 void AddLocated(const PlanIr& plan, const std::vector<Diagnostic>& found, DiagnosticSink& sink) {
   std::map<std::string_view, const SourceLocation*> by_guid;
   const auto add = [&by_guid](const auto& items) {
@@ -201,6 +201,7 @@ void AddLocated(const PlanIr& plan, const std::vector<Diagnostic>& found, Diagno
   add(plan.spaces);
   add(plan.storeys);
   for (const Diagnostic& d : found) {
+    if (d.kind == DiagnosticKind::kDoorwayWithoutRoom) continue;
     const auto known = d.location.guid.empty() ? by_guid.end() : by_guid.find(d.location.guid);
     sink.Emit(d.kind, known == by_guid.end() ? d.location : *known->second, d.message, d.hint);
   }

@@ -110,9 +110,7 @@ class Namer {
       }
       if (room_of_space_[s] != kNoIndex) continue;
       if (part_of[s] != nullptr) {
-        sink_.Emit(DiagnosticKind::kSpaceWithinRoom, space.location,
-                   fmt::format("no walls divide space `{}` ({:.2f} m2) from the rest of a room of {:.2f} m2", Label(space),
-                               outlines_[s].area_m2, graph_.rooms[part_of[s]->room].area_m2));
+        ReportPart(*part_of[s]);
       } else {
         sink_.Emit(DiagnosticKind::kSpaceWithoutRoom, space.location,
                    fmt::format("no walls close around space `{}` ({:.2f} m2)", Label(space), outlines_[s].area_m2));
@@ -126,6 +124,23 @@ class Namer {
           fmt::format("the room of {:.2f} m2 around ({:.2f}, {:.2f}) on `{}` has no space", room.area_m2,
                       room.center.x() + plan_.origin.x(), room.center.y() + plan_.origin.y(), graph_.storeys[room.storey.index()].name));
     }
+  }
+
+  // A space without a room of its own, most of which lies in one.
+  void ReportPart(const Pairing& p) {
+    const PlanSpace& space = plan_.spaces[p.space];
+    const double area_m2 = outlines_[p.space].area_m2, room_area_m2 = graph_.rooms[p.room].area_m2;
+    if (area_m2 < room_area_m2) {
+      sink_.Emit(
+          DiagnosticKind::kSpaceWithinRoom, space.location,
+          fmt::format("no walls divide space `{}` ({:.2f} m2) from the rest of a room of {:.2f} m2", Label(space), area_m2, room_area_m2));
+      return;
+    }
+    const uint32_t other = space_of_room_[p.room];
+    sink_.Emit(
+        DiagnosticKind::kRoomDiffersFromSpace, space.location,
+        fmt::format("space `{}` has {:.2f} m2, more than the room of {:.2f} m2 between the walls there{}", Label(space), area_m2,
+                    room_area_m2, other == kNoIndex ? "" : fmt::format(", which is that of space `{}`", Label(plan_.spaces[other]))));
   }
 
   void NameTheRest() {

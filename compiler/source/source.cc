@@ -68,8 +68,34 @@ SourceFormat XmlFormat(std::string_view head) {
   return SourceFormat::kXml;
 }
 
+// The beginning of a file of no known format, which tells people what it is: text to the end of its first line, else numbers.
+std::string Beginning(std::string_view bytes) {
+  constexpr size_t kText = 32, kBytes = 8;
+  const std::string_view text = SkipMarkAndSpace(bytes);
+  const std::string_view line = text.substr(0, std::min(text.find_first_of("\r\n"), kText));
+  const auto is_plain = [](char c) { return (c >= 0x20 && c < 0x7f) || c == '\t'; };
+  if (!line.empty() && std::all_of(line.begin(), line.end(), is_plain)) return fmt::format("`{}`", line);
+  std::string out = "the bytes";
+  for (const char c : bytes.substr(0, kBytes)) out += fmt::format(" {:02x}", static_cast<unsigned char>(c));
+  return out;
+}
+
+bool IsNamedIfc(std::string_view path) { return path.ends_with(".ifc") || path.ends_with(".IFC"); }
+
+std::string UnknownFormat(const Source& source) {
+  if (source.bytes.empty()) return fmt::format("`{}` is empty", source.path);
+  if (source.format != SourceFormat::kUnknown) {
+    return fmt::format("`{}` is {}; a plan is read as IFC in STEP syntax, as a drawing (DXF, SVG), as a mesh or as SDF", source.path,
+                       FormatName(source.format));
+  }
+  return fmt::format("`{}` begins with {}; {}", source.path, Beginning(source.bytes),
+                     IsNamedIfc(source.path) ? "an IFC file in STEP syntax begins with `ISO-10303-21;`"
+                                             : "no plan does: not IFC in STEP syntax, nor a drawing (DXF, SVG), a mesh or SDF");
+}
+
 const char* HintFor(SourceFormat format) {
   switch (format) {
+    case SourceFormat::kAGraph: return "it is compiled already: `plumb inspect` shows what is in it";
     case SourceFormat::kDwg: return "save it as DXF in the CAD program, or convert it with `dwg2dxf` (LibreDWG) or the ODA File Converter";
     case SourceFormat::kZip: return "unpack the archive and give the plan in it";
     case SourceFormat::kPicture: return "a picture has no lines: trace it as DXF or SVG, or export the drawing that it was made from";
@@ -94,6 +120,7 @@ SourceFormat DetectFormat(std::string_view bytes) {
   if (bytes.starts_with("PK\x03\x04")) return SourceFormat::kZip;
   const std::string_view head = SkipMarkAndSpace(bytes.substr(0, kDetectionBytes));
   if (head.starts_with("ISO-10303-21")) return SourceFormat::kIfcStep;
+  if (bytes.substr(0, 8).ends_with("PLAG")) return SourceFormat::kAGraph;
   if (head.size() >= 6 && head.starts_with("AC10")) return SourceFormat::kDwg;
   if (head.starts_with("ply\n") || head.starts_with("ply\r")) return SourceFormat::kPly;
   if (head.starts_with("glTF")) return SourceFormat::kGltf;
@@ -122,6 +149,7 @@ std::string_view FormatName(SourceFormat format) {
     case SourceFormat::kCollada: return "a COLLADA mesh";
     case SourceFormat::kSdf: return "a Gazebo world or model (SDF)";
     case SourceFormat::kPicture: return "a picture or a document (PDF, JPEG, PNG)";
+    case SourceFormat::kAGraph: return "an A-Graph";
     case SourceFormat::kUnknown: break;
   }
   return "of no known format";
@@ -188,12 +216,7 @@ std::optional<Source> LoadSource(const std::string& path, DiagnosticSink& diagno
 
 bool IsSupported(const Source& source, DiagnosticSink& diagnostics) {
   if (source.format == SourceFormat::kIfcStep || !SchemaName(source.format).empty()) return true;
-  diagnostics.Emit(DiagnosticKind::kUnknownFormat, {},
-                   source.bytes.empty()
-                       ? fmt::format("`{}` is empty", source.path)
-                       : fmt::format("`{}` is {}; a plan is read as IFC in STEP syntax, as a drawing (DXF, SVG), as a mesh or as SDF",
-                                     source.path, FormatName(source.format)),
-                   HintFor(source.format));
+  diagnostics.Emit(DiagnosticKind::kUnknownFormat, {}, UnknownFormat(source), HintFor(source.format));
   return false;
 }
 

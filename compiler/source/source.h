@@ -10,7 +10,24 @@
 
 namespace plumb::compiler {
 
-enum class SourceFormat { kUnknown, kIfcStep, kDxf, kSvg, kDwg, kXml, kZip, kPly, kGltf, kGltfJson, kObj, kStl, kCollada, kSdf, kPicture };
+enum class SourceFormat {
+  kUnknown,
+  kIfcStep,
+  kDxf,
+  kSvg,
+  kDwg,
+  kXml,
+  kZip,
+  kPly,
+  kGltf,
+  kGltfJson,
+  kObj,
+  kStl,
+  kCollada,
+  kSdf,
+  kPicture,
+  kAGraph
+};
 
 struct Source {
   std::string path;

@@ -38,21 +38,36 @@ void StampAtFirstPoint(Scan& scan) {
 std::string ScanFileName(double stamp_s) { return fmt::format("{:020.9f}.pcd", stamp_s); }
 
 Expected<Recording> Recording::Open(const std::string& folder) {
-  const fs::path scans = fs::path(folder) / "scans";
+  std::vector<Error> faults;
+  Expected<Recording> recording = OpenWithFaults(folder, faults);
+  if (!faults.empty()) return tl::unexpected(faults.front());
+  return recording;
+}
+
+Expected<Recording> Recording::OpenWithFaults(const std::string& folder, std::vector<Error>& faults) {
+  const auto none = [&](const std::string& why) {
+    return Fail(ErrorCode::kNotARecording, fmt::format("`{}` is no recording: {}", folder, why));
+  };
   std::error_code error;
   std::vector<std::pair<double, std::string>> found;
-  for (fs::directory_iterator it(scans, error), end; !error && it != end; it.increment(error)) {
+  std::vector<std::string> unnamed;
+  for (fs::directory_iterator it(fs::path(folder) / "scans", error), end; !error && it != end; it.increment(error)) {
     const fs::path& path = it->path();
     if (path.extension() != ".pcd") continue;
-    const std::optional<double> stamp_s = ParseStamp(path.stem().string());
-    if (!stamp_s) {
-      return Fail(ErrorCode::kNotARecording,
-                  fmt::format("`{}`: a scan's name must be its stamp, as `{}`", path.string(), ScanFileName(12.3)));
+    if (const std::optional<double> stamp_s = ParseStamp(path.stem().string())) {
+      found.emplace_back(*stamp_s, path.string());
+    } else {
+      unnamed.push_back(path.string());
     }
-    found.emplace_back(*stamp_s, path.string());
   }
-  if (error) return Fail(ErrorCode::kNotARecording, fmt::format("`{}` is no recording: cannot list `scans`: {}", folder, error.message()));
-  if (found.empty()) return Fail(ErrorCode::kNotARecording, fmt::format("`{}` is no recording: it has no scans/*.pcd", folder));
+  if (error == std::errc::no_such_file_or_directory) return none("it has no folder `scans`");
+  if (error) return none("cannot list `scans`: " + error.message());
+  std::sort(unnamed.begin(), unnamed.end());
+  for (const std::string& path : unnamed) {
+    faults.push_back(
+        {ErrorCode::kNotARecording, fmt::format("`{}`: a scan's name must be its stamp in seconds, as `{}`", path, ScanFileName(12.3))});
+  }
+  if (found.empty()) return none(unnamed.empty() ? "it has no scans/*.pcd" : "no scan in it has its stamp for a name");
   std::sort(found.begin(), found.end());
 
   Recording recording;
@@ -63,8 +78,11 @@ Expected<Recording> Recording::Open(const std::string& folder) {
   const fs::path odometry = fs::path(folder) / "odometry.tum";
   if (fs::exists(odometry, error)) {
     Expected<Trajectory> trajectory = ReadTum(odometry.string());
-    if (!trajectory) return tl::unexpected(trajectory.error());
-    recording.odometry_ = std::move(*trajectory);
+    if (trajectory) {
+      recording.odometry_ = std::move(*trajectory);
+    } else {
+      faults.push_back(trajectory.error());
+    }
   }
   return recording;
 }

@@ -14,11 +14,11 @@ namespace plumb::runtime {
 
 // One sweep, structure of arrays. Points in the lidar frame at each point's own firing time; NaN and zero points are dropped.
 struct Scan {
-  double stamp_s = 0;                    // start of the sweep
-  std::vector<Eigen::Vector3f> points;   // metres, lidar frame
-  std::vector<float> intensity;          // empty if the source has none
-  std::vector<uint16_t> ring;            // empty if the source has none
-  std::vector<float> time_s;             // seconds after stamp_s; empty: no per-point time
+  double stamp_s = 0;                   // start of the sweep
+  std::vector<Eigen::Vector3f> points;  // metres, lidar frame
+  std::vector<float> intensity;         // empty if the source has none
+  std::vector<uint16_t> ring;           // empty if the source has none
+  std::vector<float> time_s;            // seconds after stamp_s; empty: no per-point time
 };
 
 // A pose with its time; T maps the body (lidar) into the trajectory's frame.
@@ -47,6 +47,9 @@ class Recording {
  public:
   // Errors: kNotARecording (no scans/*.pcd), kBadTrajectory. Never opens truth.*.
   [[nodiscard]] static Expected<Recording> Open(const std::string& folder);
+  // For those who look for faults: leaves out scans whose names are no stamps, and an odometry that cannot be read, and adds to `faults`
+  // what Open fails with. Errors: kNotARecording (no scan with a stamp).
+  [[nodiscard]] static Expected<Recording> OpenWithFaults(const std::string& folder, std::vector<Error>& faults);
 
   [[nodiscard]] size_t size() const { return scan_paths_.size(); }
   [[nodiscard]] double stamp_s(size_t i) const { return stamps_s_[i]; }  // as the file is named

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 #include "tools/drawing/floor_plan.h"
 
@@ -73,11 +74,47 @@ class Facade {
   std::vector<Opening> openings_;
 };
 
-// How far the storey reaches that way, columns before the walls included.
-double Reach(const AGraph& graph, StoreyId storey, const Vector2d& outward) {
-  double reach_m = std::numeric_limits<double>::lowest();
+// Posts and strays of the drawing that stand by themselves and are smaller than this are no part of the building's size.
+constexpr double kSmallestPart_m = 1.0;
+
+// By wall: is it part of something that size, or is nothing of that size? Walls whose boxes touch are of one part.
+std::vector<bool> WallsOfParts(const AGraph& graph, StoreyId storey) {
+  constexpr double kTouch_m = 0.05;
+  std::vector<Eigen::AlignedBox2d> boxes(graph.walls.size());
   for (const Surface& s : graph.surfaces) {
     if (s.storey != storey) continue;
+    for (const Vector2d& p : PointsAlong(s)) boxes[s.wall.index()].extend(p);
+  }
+  std::vector<size_t> order, part(graph.walls.size());
+  std::iota(part.begin(), part.end(), size_t{0});
+  for (size_t w = 0; w < boxes.size(); ++w) {
+    if (!boxes[w].isEmpty()) order.push_back(w);
+  }
+  std::sort(order.begin(), order.end(), [&](size_t a, size_t b) { return boxes[a].min().x() < boxes[b].min().x(); });
+  const auto root = [&part](size_t w) {
+    while (part[w] != w) w = part[w] = part[part[w]];
+    return w;
+  };
+  const Vector2d touch(kTouch_m, kTouch_m);
+  for (size_t i = 0; i < order.size(); ++i) {
+    const Eigen::AlignedBox2d reach(boxes[order[i]].min() - touch, boxes[order[i]].max() + touch);
+    for (size_t k = i + 1; k < order.size() && boxes[order[k]].min().x() <= reach.max().x(); ++k) {
+      if (reach.intersects(boxes[order[k]])) part[root(order[k])] = root(order[i]);
+    }
+  }
+  std::vector<Eigen::AlignedBox2d> parts(graph.walls.size());
+  for (const size_t w : order) parts[root(w)].extend(boxes[w]);
+  std::vector<bool> out(graph.walls.size(), false);
+  for (const size_t w : order) out[w] = parts[root(w)].sizes().maxCoeff() >= kSmallestPart_m;
+  if (std::find(out.begin(), out.end(), true) == out.end()) out.assign(out.size(), true);
+  return out;
+}
+
+// How far the storey reaches that way, columns before the walls included.
+double Reach(const AGraph& graph, StoreyId storey, const std::vector<bool>& is_of_part, const Vector2d& outward) {
+  double reach_m = std::numeric_limits<double>::lowest();
+  for (const Surface& s : graph.surfaces) {
+    if (s.storey != storey || !is_of_part[s.wall.index()]) continue;
     for (const Vector2d& p : PointsAlong(s)) reach_m = std::max(reach_m, p.dot(outward));
   }
   for (const Column& c : graph.columns) {
@@ -191,9 +228,10 @@ OuterRectangle OuterRectangleOf(const AGraph& graph, StoreyId storey) {
   out.u = {std::cos(yaw_rad), std::sin(yaw_rad)};
   out.v = {-std::sin(yaw_rad), std::cos(yaw_rad)};
   const auto add = [&out](const Vector2d& p) { out.size.extend(Vector2d(p.dot(out.u), p.dot(out.v))); };
+  const std::vector<bool> is_of_part = WallsOfParts(graph, storey);
   for (const bool exterior_only : {true, false}) {
     for (const Surface& s : graph.surfaces) {
-      if (s.storey != storey || (exterior_only && s.room.valid())) continue;
+      if (s.storey != storey || (exterior_only && s.room.valid()) || !is_of_part[s.wall.index()]) continue;
       for (const Vector2d& p : PointsAlong(s)) add(p);
     }
     if (!out.size.isEmpty()) break;
@@ -212,9 +250,10 @@ std::vector<DimensionChain> DimensionsOf(const AGraph& graph, StoreyId storey) {
   };
   const std::array<Side, 4> sides = {Side{outer.u, -outer.v, lo.x(), hi.x(), true}, Side{outer.v, -outer.u, lo.y(), hi.y(), true},
                                      Side{outer.u, outer.v, lo.x(), hi.x(), false}, Side{outer.v, outer.u, lo.y(), hi.y(), false}};
+  const std::vector<bool> is_of_part = WallsOfParts(graph, storey);
   std::vector<DimensionChain> out;
   for (const Side& side : sides) {
-    const double outward_m = Reach(graph, storey, side.outward);
+    const double outward_m = Reach(graph, storey, is_of_part, side.outward);
     DimensionChain openings{side.along, side.outward, outward_m, Facade(graph, storey, side.along, side.outward).Stops(), 0};
     if (!openings.stops_m.empty()) {
       openings.stops_m.push_back(side.from_m);

@@ -13,7 +13,8 @@ namespace plumb::tools {
 // The direction that most of the storey's walls have, up to quarter turns, in (-pi/4, pi/4]; 0 where it has none.
 [[nodiscard]] double MainDirection(const AGraph& graph, StoreyId storey);
 
-// The least rectangle in that direction around the outer walls; `size` empty where the storey has none.
+// The least rectangle in that direction around the outer walls, but those that stand by themselves and are under 1 m in size: posts, strays
+// of the drawing. `size` is empty where the storey has no walls.
 struct OuterRectangle {
   Eigen::Vector2d u = Eigen::Vector2d::UnitX(), v = Eigen::Vector2d::UnitY();
   Eigen::AlignedBox2d size;  // along u and v

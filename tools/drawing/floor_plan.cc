@@ -25,7 +25,7 @@ Ring AxisRing(const Wall& w) {
 
 // The cut never lies exactly in a horizontal face: tops of sills and benches are drawn at round heights.
 double CutHeight(const AGraph& g, StoreyId storey, const FloorPlanOptions& options) {
-  return g.storeys[storey.index()].elevation_m + options.section_height_m + 0.00037;
+  return g.storeys[storey.index()].elevation_m + SectionHeight(g, storey, options) + 0.00037;
 }
 
 const char* CutClass(ElementKind kind) {
@@ -157,6 +157,21 @@ Sheet SheetOf(const AGraph& graph, StoreyId storey) {
 std::string FloorPlanOptions::Check() const {
   const bool ok = section_height_m > 0 && section_height_m <= 20;
   return ok ? "" : fmt::format("FloorPlanOptions.section_height_m = {}; must be in (0, 20]", section_height_m);
+}
+
+double SectionHeight(const AGraph& graph, StoreyId storey, const FloorPlanOptions& options) {
+  constexpr double kBelow_m = 0.1;
+  const double zero_m = graph.storeys[storey.index()].elevation_m;
+  const bool has_rooms = std::any_of(graph.rooms.begin(), graph.rooms.end(), [&](const Room& room) { return room.storey == storey; });
+  double highest_m = 0;
+  for (const Room& room : graph.rooms) {
+    if (room.storey == storey) highest_m = std::max(highest_m, room.ceiling_z_m - zero_m);
+  }
+  for (const Wall& wall : graph.walls) {
+    if (wall.storey == storey && !has_rooms) highest_m = std::max(highest_m, wall.z_max_m - zero_m);
+  }
+  const bool is_above = highest_m > 0 && options.section_height_m >= highest_m;
+  return is_above ? std::max(highest_m - kBelow_m, 0.5 * highest_m) : options.section_height_m;
 }
 
 std::string DrawFloorPlan(const AGraph& graph, StoreyId storey, const Sheet& sheet, const FloorPlanOptions& options) {

@@ -15,6 +15,10 @@ struct FloorPlanOptions {
   [[nodiscard]] std::string Check() const;
 };
 
+// Where the storey is cut, above its zero: as asked for, but below the highest of its ceilings, over which there are roofs, no rooms;
+// without rooms, below the top of its walls.
+[[nodiscard]] double SectionHeight(const AGraph& graph, StoreyId storey, const FloorPlanOptions& options);
+
 // Style sheet for the classes that the drawing uses; colours are CSS variables with the light scheme as default.
 [[nodiscard]] std::string FloorPlanStyle();
 

@@ -99,9 +99,11 @@ std::string DrawTitle(const AGraph& graph, StoreyId storey, const Sheet& sheet, 
 
 std::string DrawStorey(const AGraph& graph, StoreyId storey, const Sheet& sheet, const FloorPlanOptions& options, double width) {
   const double foot = sheet.height();
+  // In a window of its own: the cut passes through walls of other storeys, too, which may reach far beyond this one's.
   std::string out =
-      DrawFloorPlan(graph, storey, sheet, options) + DrawDimensions(graph, storey, sheet) + DrawRoomLabels(graph, storey, sheet);
-  out += DrawTitle(graph, storey, sheet, options.section_height_m, kMargin + 20, foot + 30);
+      fmt::format("<svg width=\"{}\" height=\"{}\">\n{}{}{}</svg>\n", Decimal(sheet.width()), Decimal(foot),
+                  DrawFloorPlan(graph, storey, sheet, options), DrawDimensions(graph, storey, sheet), DrawRoomLabels(graph, storey, sheet));
+  out += DrawTitle(graph, storey, sheet, SectionHeight(graph, storey, options), kMargin + 20, foot + 30);
   out += DrawScaleBar(sheet, kMargin + 20, foot + 130);
   if (graph.true_north_rad) out += DrawNorth(*graph.true_north_rad, width - 140, foot + 90);
   return out;
@@ -119,18 +121,21 @@ std::vector<StoreyId> DrawnStoreys(const AGraph& graph) {
 
 std::string DrawScaleBar(const Sheet& sheet, double x, double y) {
   double metres = 1;
+  int steps = 5;  // each of 1, 2 or 5 of a power of ten
   for (const double m : {2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0, 500.0, 1000.0}) {
-    if (sheet.Length(m) <= 600) metres = m;
+    if (sheet.Length(m) > 600) break;
+    metres = m;
+    steps = m == 2 || m == 20 || m == 200 ? 4 : 5;
   }
-  const double step = sheet.Length(metres) / 5;
+  const double step = sheet.Length(metres) / steps;
   std::string out;
-  for (int i = 0; i < 5; ++i) {
+  for (int i = 0; i < steps; ++i) {
     fmt::format_to(std::back_inserter(out), "<rect class=\"scale{}\" x=\"{}\" y=\"{}\" width=\"{}\" height=\"8\"/>",
                    i % 2 == 0 ? "" : " odd", Decimal(x + i * step), Decimal(y), Decimal(step));
   }
-  for (const int i : {0, 1, 5}) {
+  for (const int i : {0, 1, steps}) {
     fmt::format_to(std::back_inserter(out), "<text x=\"{}\" y=\"{}\" font-size=\"18\">{:g}{}</text>", Decimal(x + i * step),
-                   Decimal(y + 28), metres * i / 5, i == 5 ? " m" : "");
+                   Decimal(y + 28), metres * i / steps, i == steps ? " m" : "");
   }
   return out + "\n";
 }

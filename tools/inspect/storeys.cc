@@ -6,16 +6,12 @@
 #include <charconv>
 #include <functional>
 #include <iterator>
-#include <string_view>
 #include <vector>
+
+#include "tools/names/names.h"
 
 namespace plumb::tools {
 namespace {
-
-bool EqualIgnoringCase(std::string_view a, std::string_view b) {
-  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [&](char x, char y) { return lower(x) == lower(y); });
-}
 
 std::string List(const AGraph& graph) {
   std::string out;
@@ -36,7 +32,7 @@ Expected<StoreyId> FindStorey(const AGraph& graph, const std::string& name_or_nu
     return out;
   };
   auto found = named([&](const std::string& name) { return name == name_or_number; });
-  if (found.empty()) found = named([&](const std::string& name) { return EqualIgnoringCase(name, name_or_number); });
+  if (found.empty()) found = named([&](const std::string& name) { return IsSameName(name, name_or_number); });
   if (found.size() == 1) return found[0];
   size_t number = 0;
   const char* end = name_or_number.data() + name_or_number.size();

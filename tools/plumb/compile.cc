@@ -19,7 +19,9 @@
 #include "tools/plumb/command.h"
 #include "tools/plumb/compile_limits.h"
 #include "tools/plumb/flag_names.h"
+#include "tools/plumb/inputs.h"
 #include "tools/plumb/outputs.h"
+#include "tools/plumb/usage_errors.h"
 
 namespace plumb::tools {
 namespace {
@@ -117,7 +119,11 @@ Status RunCompile(CompileFlags& flags, Session& session) {
   }
   if (result.has_internal_error())
     return session.Fail({ErrorCode::kInternal, fmt::format("the compiler failed on `{}`; see above", flags.plan)});
-  if (!result.graph) return session.Fail({ErrorCode::kPlanUnsuitable, fmt::format("`{}` gives no A-Graph; see above", flags.plan)});
+  if (!result.graph) {
+    const auto fits = CheckInputs({{flags.plan, InputKind::kPlan}});
+    if (!fits && fits.error().code == ErrorCode::kBadOption) return session.Fail(fits.error());
+    return session.Fail({ErrorCode::kPlanUnsuitable, fmt::format("`{}` gives no A-Graph; see above", flags.plan)});
+  }
   if (const auto written = WriteAGraphFile(*result.graph, flags.output); !written) return session.Fail(written.error());
   session.console.Info(Summary(*result.graph, flags.output));
   return result.diagnostics.has_errors() ? Status::kFindings : Status::kFine;
@@ -135,8 +141,11 @@ void AddCompileOptions(CLI::App& subcommand, compiler::CompileOptions& options) 
   subcommand.add_option("--up", options.up, "of meshes: x, y or z; else as stated by the file or seen in its walls");
   subcommand.add_option("--model-path", options.model_path, "of Gazebo worlds: folders besides the world's own that hold included models")
       ->envname("GAZEBO_MODEL_PATH")
+      ->type_name("FOLDER")
+      ->default_str("")
       ->delimiter(':');
-  subcommand.add_option("--divide-open-plans", options.divide_open_plans, "along the plan's spaces where no walls do; else one room");
+  subcommand.add_option("--divide-open-plans", options.divide_open_plans, "along the plan's spaces where no walls do; else one room")
+      ->default_str("true");
   compiler::DrawingFileOptions& drawing = options.drawing;
   subcommand.add_option("--scale", drawing.scale_m,
                         "of a drawing: metres of one unit of the file, instead of --unit; for SVG the unit of its viewBox");
@@ -165,11 +174,14 @@ void AddCompile(CLI::App& app, Session& session) {
                     "Status 2: nothing is written: the file is damaged, too large, of no schema that is read, or has no building in it.");
   sub->add_option("PLAN", flags->plans,
                   "the plan: IFC (STEP), a drawing (DXF, SVG), a mesh (OBJ, PLY, STL, glTF, COLLADA) or a Gazebo world (SDF); plain, "
-                  "gzipped or in a ZIP archive; with --storey it need not be named again");
+                  "gzipped or in a ZIP archive; with --storey it need not be named again")
+      ->type_name("")
+      ->default_str("");
   sub->add_option("--storey", flags->storeys, "a drawing's storey and the height of its floor, m; once for each")
       ->type_name("NAME=FILE@ELEVATION")
+      ->default_str("")
       ->allow_extra_args(false);
-  sub->add_option("-o,--output", flags->output, "the A-Graph to write")->required()->type_name("FILE.agraph");
+  sub->add_option("-o,--output", flags->output, "the A-Graph to write")->required()->check(NotEmpty)->type_name("FILE.agraph");
   sub->add_option("--diagnostics-json", flags->diagnostics_json, "write what the compiler has to say about the plan as JSON")
       ->type_name("FILE");
   sub->add_option("--max-per-kind", flags->max_per_kind, "print at most this many diagnostics of a kind");

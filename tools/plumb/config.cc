@@ -6,11 +6,11 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <iterator>
-#include <numeric>
 #include <optional>
 #include <string_view>
 
 #include "schema/files.h"
+#include "tools/names/names.h"
 
 namespace plumb::tools {
 namespace {
@@ -113,24 +113,31 @@ std::string Quoted(const std::string& text) {
   return out + '"';
 }
 
-bool IsList(const CLI::Option& option) { return option.get_items_expected_max() > 1; }
+// Of "05", ".5" and "+5" neither TOML nor JSON know anything.
+std::string NumberLiteral(const std::string& text) {
+  int64_t whole = 0;
+  uint64_t large = 0;
+  double number = 0;
+  if (CLI::detail::lexical_cast(text, whole)) return std::to_string(whole);
+  if (CLI::detail::lexical_cast(text, large)) return std::to_string(large);
+  return CLI::detail::lexical_cast(text, number) ? fmt::format("{}", number) : text;
+}
 
-// As text; empty where it has no value.
-std::string ValueOf(const CLI::Option& option) {
-  if (IsList(option)) {
+// As TOML and JSON both write it; empty where it has no value.
+std::string Literal(const CLI::Option& option) {
+  if (option.get_items_expected_max() > 1) {
     std::string out;
     for (const std::string& item : option.count() > 0 ? option.results() : std::vector<std::string>())
       out += (out.empty() ? "" : ", ") + Quoted(item);
-    return out;
+    return "[" + out + "]";
   }
-  std::string value = option.count() > 0 ? option.results().back() : option.get_default_str();
-  if (option.get_expected_max() == 0) return value.empty() || value == "false" ? "false" : "true";
-  return value;
-}
-
-bool IsBare(const CLI::Option& option) {
+  const std::string value = option.count() > 0 ? option.results().back() : option.get_default_str();
   const std::string type = option.get_type_name();
-  return option.get_expected_max() == 0 || type.starts_with("INT") || type.starts_with("UINT") || type.starts_with("FLOAT");
+  if (option.get_expected_max() == 0 || type.starts_with("BOOLEAN"))
+    return value.empty() || value == "false" || value == "0" ? "false" : "true";
+  if (value.empty()) return {};
+  const bool is_number = type.starts_with("INT") || type.starts_with("UINT") || type.starts_with("FLOAT");
+  return is_number ? NumberLiteral(value) : Quoted(value);
 }
 
 }  // namespace
@@ -159,12 +166,9 @@ std::string ConfigToToml(const CLI::App& subcommand) {
   std::string out = fmt::format("[{}]\n", subcommand.get_name());
   for (const CLI::Option* option : subcommand.get_options()) {
     if (!IsConfigurable(*option)) continue;
-    const std::string value = ValueOf(*option);
+    const std::string value = Literal(*option);
     // An option without a value is shown, but not set.
-    out += fmt::format("{}{} = {}\n", value.empty() ? "# " : "", option->get_lnames().front(),
-                       IsList(*option)   ? "[" + value + "]"
-                       : IsBare(*option) ? value
-                                         : Quoted(value));
+    out += fmt::format("{}{} = {}\n", value.empty() ? "# " : "", option->get_lnames().front(), value.empty() ? "\"\"" : value);
   }
   return out;
 }
@@ -172,31 +176,9 @@ std::string ConfigToToml(const CLI::App& subcommand) {
 std::vector<Option> OptionValues(const CLI::App& subcommand) {
   std::vector<Option> out;
   for (const CLI::Option* option : subcommand.get_options()) {
-    if (IsConfigurable(*option)) out.push_back({option->get_lnames().front(), ValueOf(*option)});
+    if (IsConfigurable(*option)) out.push_back({option->get_lnames().front(), Literal(*option)});
   }
   return out;
-}
-
-std::string NearestName(const std::string& name, const std::vector<std::string>& names) {
-  std::string best;
-  size_t best_edits = name.size() / 3 + 2;
-  for (const std::string& candidate : names) {
-    std::vector<size_t> row(candidate.size() + 1);
-    std::iota(row.begin(), row.end(), size_t{0});
-    for (size_t i = 0; i < name.size(); ++i) {
-      size_t diagonal = row[0]++;
-      for (size_t j = 0; j < candidate.size(); ++j) {
-        const size_t replaced = diagonal + (name[i] == candidate[j] ? 0 : 1);
-        diagonal = row[j + 1];
-        row[j + 1] = std::min({row[j] + 1, row[j + 1] + 1, replaced});
-      }
-    }
-    if (row.back() < best_edits) {
-      best_edits = row.back();
-      best = candidate;
-    }
-  }
-  return best;
 }
 
 std::vector<std::string> SubcommandNames(const CLI::App& app) {

@@ -21,11 +21,8 @@ namespace plumb::tools {
 // All options of the subcommand with the values they have now, as a configuration file. Positional arguments are not part of it.
 [[nodiscard]] std::string ConfigToToml(const CLI::App& subcommand);
 
-// The same as name and value, in the order of --help.
+// The same as name and value, a JSON literal (empty: it has none), in the order of --help.
 [[nodiscard]] std::vector<Option> OptionValues(const CLI::App& subcommand);
-
-// The one of `names` that is nearest to `name` by edits; empty where none is near (more edits than one, plus a third of its letters).
-[[nodiscard]] std::string NearestName(const std::string& name, const std::vector<std::string>& names);
 
 [[nodiscard]] std::vector<std::string> SubcommandNames(const CLI::App& app);
 

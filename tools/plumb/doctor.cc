@@ -12,6 +12,7 @@
 #include "schema/counted.h"
 #include "schema/files.h"
 #include "tools/plumb/command.h"
+#include "tools/plumb/inputs.h"
 
 namespace plumb::tools {
 namespace {
@@ -40,13 +41,15 @@ void ExamineStamps(const runtime::Recording& recording, Examination& out) {
   std::vector<double> steps_s;
   for (size_t i = 1; i < n; ++i) steps_s.push_back(recording.stamp_s(i) - recording.stamp_s(i - 1));
   const double period_s = Median(steps_s);
-  size_t gaps = 0;
+  size_t gaps = 0, repeated = 0;
   double longest_s = 0;
   for (const double step_s : steps_s) {
     longest_s = std::max(longest_s, step_s);
     gaps += step_s > 1.8 * period_s;
+    repeated += step_s <= 0;
   }
   fmt::format_to(write, ", {:.2f} Hz, longest step {:.3f} s\n", 1 / period_s, longest_s);
+  if (repeated > 0) out.findings.push_back(fmt::format("{} with the stamp of the one before", Counted(repeated, "scan")));
   if (gaps > 0)
     out.findings.push_back(
         fmt::format("{} gaps between scans, the longest {:.2f} s at a period of {:.3f} s: scans are missing", gaps, longest_s, period_s));
@@ -89,10 +92,10 @@ void ExamineScans(const runtime::Recording& recording, Console& console, Examina
     out.findings.emplace_back("times per point span more than half a second: are they in seconds after the stamp?");
 }
 
-void ExamineOdometry(const runtime::Recording& recording, Examination& out) {
+void ExamineOdometry(const runtime::Recording& recording, bool is_unreadable, Examination& out) {
   const runtime::Trajectory& odometry = recording.odometry();
   if (odometry.empty()) {
-    out.facts += "odometry   none; not needed\n";
+    out.facts += is_unreadable ? "odometry   cannot be read\n" : "odometry   none; not needed\n";
     return;
   }
   size_t covered = 0;
@@ -107,6 +110,22 @@ void ExamineOdometry(const runtime::Recording& recording, Examination& out) {
   }
 }
 
+bool IsName(const Error& fault) { return fault.code == ErrorCode::kNotARecording; }
+
+// Of many scans with bad names the first.
+void AddFaults(const std::vector<Error>& faults, Examination& out) {
+  const auto names = static_cast<size_t>(std::count_if(faults.begin(), faults.end(), IsName));
+  for (size_t i = 0; i < faults.size(); ++i) {
+    if (IsName(faults[i]) && i > 0) continue;
+    const bool is_first_of_many = IsName(faults[i]) && names > 1;
+    out.findings.push_back((is_first_of_many ? Counted(names, "scan") + " with bad names, the first: " : "") + faults[i].message);
+  }
+}
+
+void SayFindings(const Examination& examination, Console& console) {
+  for (const std::string& finding : examination.findings) console.Print("finding: " + finding + "\n");
+}
+
 // As `plumb simulate` leaves it when it is stopped.
 bool IsBrokenOff(const std::filesystem::path& truth) {
   const auto text = ReadFileText(truth.string());
@@ -116,18 +135,24 @@ bool IsBrokenOff(const std::filesystem::path& truth) {
 }
 
 Status RunDoctor(const std::string& folder, Session& session) {
-  const auto recording = runtime::Recording::Open(folder);
-  if (!recording) return session.Fail(recording.error());
+  if (const auto fits = CheckInputs({{folder, InputKind::kRecording}}); !fits) return session.Fail(fits.error());
+  std::vector<Error> faults;
+  const auto recording = runtime::Recording::OpenWithFaults(folder, faults);
   Examination examination;
+  AddFaults(faults, examination);
+  if (!recording) {
+    SayFindings(examination, session.console);
+    return session.Fail(recording.error());
+  }
   ExamineStamps(*recording, examination);
   ExamineScans(*recording, session.console, examination);
-  ExamineOdometry(*recording, examination);
+  ExamineOdometry(*recording, !std::all_of(faults.begin(), faults.end(), IsName), examination);
   if (IsBrokenOff(std::filesystem::path(folder) / "truth.json"))
     examination.findings.emplace_back("the simulation that wrote it was broken off: simulate it again");
   const bool has_truth = std::filesystem::exists(std::filesystem::path(folder) / "truth.tum");
   examination.facts += has_truth ? "truth      yes\n" : "truth      none: `plumb evaluate` needs it, nothing else does\n";
   session.console.Print(examination.facts);
-  for (const std::string& finding : examination.findings) session.console.Print("finding: " + finding + "\n");
+  SayFindings(examination, session.console);
   if (examination.findings.empty()) session.console.Print("nothing amiss\n");
   return examination.findings.empty() ? Status::kFine : Status::kFindings;
 }
@@ -138,7 +163,7 @@ void AddDoctor(CLI::App& app, Session& session) {
   auto folder = std::make_shared<std::string>();
   CLI::App* sub =
       AddSubcommand(app, session, "doctor", "Check a recording folder: rates, gaps, missing fields, odometry", "  plumb doctor rec/");
-  sub->add_option("REC", *folder, "recording folder")->required();
+  sub->add_option("REC", *folder, "recording folder")->required()->type_name("");
   sub->callback([folder, &session] { session.status = RunDoctor(*folder, session); });
 }
 

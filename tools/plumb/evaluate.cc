@@ -11,6 +11,9 @@
 
 #include "schema/files.h"
 #include "tools/plumb/command.h"
+#include "tools/plumb/flag_names.h"
+#include "tools/plumb/inputs.h"
+#include "tools/plumb/outputs.h"
 #include "tools/run/run_info.h"
 
 namespace plumb::tools {
@@ -46,7 +49,10 @@ std::vector<std::string> UnmetRequirements(const Evaluation& e, const EvaluateFl
 
 Status RunEvaluate(EvaluateFlags flags, Session& session) {
   flags.options.wrong_fix_rad = flags.wrong_fix_deg * std::numbers::pi / 180;
-  if (const std::string wrong = flags.options.Check(); !wrong.empty()) return session.Fail({ErrorCode::kBadOption, wrong});
+  if (const std::string wrong = flags.options.Check(); !wrong.empty()) return session.Fail({ErrorCode::kBadOption, InFlags(wrong)});
+  const auto fit = CheckInputs({{flags.run, InputKind::kRun}, {flags.truth, InputKind::kRecording}});
+  if (!fit) return session.Fail(fit.error());
+  if (const auto apart = CheckOutputs({{"--json", flags.json}}, {}); !apart) return session.Fail(apart.error());
   const auto run = ReadRun(flags.run);
   if (!run) return session.Fail(run.error());
   const auto truth = ReadTruth(flags.truth);
@@ -79,7 +85,7 @@ void AddEvaluate(CLI::App& app, Session& session) {
   CLI::App* sub = AddSubcommand(app, session, "evaluate", "Compare a run with the truth of its recording",
                                 "  plumb evaluate run/ --truth rec/\n"
                                 "  plumb evaluate run/ --truth rec/ --json result.json --require-localized-within 20 --require-ate 0.06");
-  sub->add_option("RUN", flags->run, "folder written by `plumb localize`")->required();
+  sub->add_option("RUN", flags->run, "folder written by `plumb localize`")->required()->type_name("");
   sub->add_option("--truth", flags->truth, "recording folder with truth.tum and truth.json")->required()->type_name("REC");
   sub->add_option("--json", flags->json, "write the figures as JSON too")->type_name("FILE");
   sub->add_option("--wrong-fix-distance", flags->options.wrong_fix_m, "a pose further off while localized is a wrong fix, m");

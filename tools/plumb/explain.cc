@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "compiler/diagnostics/explanation.h"
+#include "tools/names/names.h"
 #include "tools/plumb/command.h"
-#include "tools/plumb/config.h"
 
 namespace plumb::tools {
 namespace {
@@ -50,7 +50,7 @@ void AddExplain(CLI::App& app, Session& session) {
                                 "  plumb explain PL7103\n"
                                 "  plumb explain RoomWithoutDoorway\n"
                                 "  plumb explain");
-  sub->add_option("CODE", *code, "code or name of a diagnostic; without it, all of them are listed");
+  sub->add_option("CODE", *code, "code or name of a diagnostic; without it, all of them are listed")->type_name("");
   sub->callback([code, &session] { session.status = RunExplain(*code, session); });
 }
 

@@ -1,12 +1,8 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <limits>
 #include <memory>
-#include <system_error>
 #include <utility>
 #include <vector>
 
@@ -21,6 +17,7 @@
 #include "tools/inspect/storeys.h"
 #include "tools/plumb/command.h"
 #include "tools/plumb/flag_names.h"
+#include "tools/plumb/inputs.h"
 #include "tools/plumb/outputs.h"
 
 namespace plumb::tools {
@@ -35,16 +32,13 @@ struct InspectFlags {
 
 std::string NameOf(const AGraph& graph, StoreyId storey) { return graph.storeys[storey.index()].name; }
 
-// A cut above all ceilings shows roofs over empty outlines.
-void SayWhatLiesBelowTheCut(const AGraph& graph, const std::vector<StoreyId>& storeys, double section_height_m, Console& console) {
+// Where a storey is cut lower than asked for.
+void SayWhereItIsCutLower(const AGraph& graph, const std::vector<StoreyId>& storeys, const FloorPlanOptions& options, Console& console) {
   for (const StoreyId storey : storeys) {
-    double highest_m = -std::numeric_limits<double>::infinity();
-    for (const Room& room : graph.rooms) {
-      if (room.storey == storey) highest_m = std::max(highest_m, room.ceiling_z_m - graph.storeys[storey.index()].elevation_m);
-    }
-    if (std::isfinite(highest_m) && section_height_m >= highest_m)
-      console.Info(fmt::format("{}: the cut at {:.2f} m passes above all ceilings ({:.2f} m at most)", NameOf(graph, storey),
-                               section_height_m, highest_m));
+    const double height_m = SectionHeight(graph, storey, options);
+    if (height_m < options.section_height_m)
+      console.Info(fmt::format("{}: cut at {:.2f} m, as {:.2f} m is above all its rooms or walls", NameOf(graph, storey), height_m,
+                               options.section_height_m));
   }
 }
 
@@ -52,7 +46,7 @@ Expected<void> WriteSvg(const AGraph& graph, const InspectFlags& flags, StoreyId
   const std::vector<StoreyId> storeys = chosen.valid() ? std::vector<StoreyId>{chosen} : DrawnStoreys(graph);
   if (auto written = WriteFileAtomically(flags.svg, std::string_view(FloorPlansToSvg(graph, storeys, flags.floor_plan))); !written)
     return written;
-  SayWhatLiesBelowTheCut(graph, storeys, flags.floor_plan.section_height_m, console);
+  SayWhereItIsCutLower(graph, storeys, flags.floor_plan, console);
   std::string names;
   for (const StoreyId storey : storeys) names += (names.empty() ? "" : ", ") + NameOf(graph, storey);
   console.Info(fmt::format("{}: floor plan of {}", flags.svg, names.empty() ? "nothing: no storey has walls or rooms" : names));
@@ -65,9 +59,8 @@ Expected<void> WriteNav2(const AGraph& graph, const InspectFlags& flags, StoreyI
   const auto map = MakeOccupancyMap(graph, storey, flags.occupancy);
   if (!map) return tl::unexpected(map.error());
   const std::filesystem::path folder(flags.nav2);
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) return Fail(ErrorCode::kFileUnwritable, fmt::format("cannot create `{}`: {}", flags.nav2, error.message()));
+  const auto made = OutputFolder::Make(flags.nav2);
+  if (!made) return tl::unexpected(made.error());
   // The image first: no reader finds a map.yaml without it.
   if (auto written = WriteFileAtomically((folder / "map.pgm").string(), std::string_view(MapPgm(*map))); !written) return written;
   if (auto written = WriteFileAtomically((folder / "map.yaml").string(), std::string_view(MapYaml(*map, "map.pgm"))); !written)
@@ -78,7 +71,10 @@ Expected<void> WriteNav2(const AGraph& graph, const InspectFlags& flags, StoreyI
 }
 
 Status RunInspect(const InspectFlags& flags, Session& session) {
-  if (const std::string wrong = flags.floor_plan.Check(); !wrong.empty()) return session.Fail({ErrorCode::kBadOption, InFlags(wrong)});
+  for (const std::string& wrong : {flags.floor_plan.Check(), flags.occupancy.Check()}) {
+    if (!wrong.empty()) return session.Fail({ErrorCode::kBadOption, InFlags(wrong)});
+  }
+  if (const auto fits = CheckInputs({{flags.path, InputKind::kAGraph}}); !fits) return session.Fail(fits.error());
   auto file = AGraphFile::Open(flags.path);
   if (!file) return session.Fail(file.error());
   const size_t triangles = file->triangle_count();
@@ -121,8 +117,8 @@ void AddInspect(CLI::App& app, Session& session) {
                                 "  plumb inspect house.agraph --svg house.svg\n"
                                 "  plumb inspect house.agraph --svg ground.svg --storey \"Ground floor\"\n"
                                 "  plumb inspect house.agraph --graphml house.graphml\n"
-                                "  plumb inspect house.agraph --nav2 map/ --storey 0 --height_m 0.25 --resolution_m 0.02");
-  sub->add_option("FILE.agraph", flags->path, "the A-Graph")->required();
+                                "  plumb inspect house.agraph --nav2 map/ --storey 0 --sensor-height 0.25 --resolution 0.02");
+  sub->add_option("FILE.agraph", flags->path, "the A-Graph")->required()->type_name("");
   sub->add_flag("--json", flags->json, "print it as JSON");
   sub->add_option("--svg", flags->svg, "draw the floor plans of all storeys, or of --storey, to scale into this file")
       ->type_name("FILE.svg");
@@ -132,8 +128,8 @@ void AddInspect(CLI::App& app, Session& session) {
   sub->add_option("--nav2", flags->nav2, "write map.yaml and map.pgm of --storey, or of the one with most rooms, into this folder")
       ->type_name("DIR");
   sub->add_option("--storey", flags->storey, "the storey, by name or counted from 0")->type_name("NAME");
-  sub->add_option("--height_m", flags->occupancy.height_m, "of the sensor above the floor, for --nav2, m");
-  sub->add_option("--resolution_m", flags->occupancy.resolution_m, "edge of a cell, for --nav2, m");
+  sub->add_option("--sensor-height", flags->occupancy.height_m, "above the floor, for --nav2, m");
+  sub->add_option("--resolution", flags->occupancy.resolution_m, "edge of a cell, for --nav2, m");
   sub->callback([flags, &session] { session.status = RunInspect(*flags, session); });
 }
 

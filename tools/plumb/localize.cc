@@ -10,15 +10,19 @@
 #include "runtime/localizer/replay.h"
 #include "runtime/rooms/sgraph_json.h"
 #include "schema/agraph_reader.h"
+#include "schema/counted.h"
 #include "schema/files.h"
 #include "tools/plumb/as_built_cloud.h"
 #include "tools/plumb/command.h"
 #include "tools/plumb/config.h"
 #include "tools/plumb/flag_names.h"
+#include "tools/plumb/inputs.h"
 #include "tools/plumb/interrupt.h"
+#include "tools/plumb/outputs.h"
 #include "tools/plumb/replayer.h"
 #include "tools/plumb/start_flags.h"
 #include "tools/plumb/updates.h"
+#include "tools/plumb/usage_errors.h"
 #include "tools/run/ply.h"
 #include "tools/run/run_folder.h"
 #include "tools/run/run_info.h"
@@ -83,10 +87,10 @@ RunInfo Describe(const LocalizeFlags& flags, const CLI::App& sub, const AGraph& 
   for (const TimingRow& t : results.timing) total_ms += t.stage == "latency" ? 0 : t.ms;
   if (info.scans > 0) info.ms_per_scan = total_ms / static_cast<double>(info.scans);
   if (info.localized_scans == 0) {
-    info.last_reason = localizer.map().keyframes.empty()        ? "too little was seen to begin a map"
-                       : localizer.T_plan_map()                  ? "found only after the last scan, when the graph had caught up"
-                       : !localizer.last_try()                   ? "the recording ended before the first try"
-                                                                 : localizer.last_try()->result.reason;
+    info.last_reason = localizer.map().keyframes.empty() ? "too little was seen to begin a map"
+                       : localizer.T_plan_map()          ? "found only after the last scan, when the graph had caught up"
+                       : !localizer.last_try()           ? "the recording ended before the first try"
+                                                         : localizer.last_try()->result.reason;
   }
   return info;
 }
@@ -112,17 +116,6 @@ Expected<void> WriteRun(const LocalizeFlags& flags, const AGraph& plan, const Re
   return {};
 }
 
-// Before hours of work: can the results be written?
-Expected<void> PrepareOutput(const std::string& folder) {
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error) return tl::unexpected(Error{ErrorCode::kFileUnwritable, fmt::format("cannot make `{}`: {}", folder, error.message())});
-  const std::string probe = (fs::path(folder) / ".writable").string();
-  if (auto written = WriteFileAtomically(probe, std::string_view()); !written) return written;
-  fs::remove(probe, error);
-  return {};
-}
-
 // The options with what the flags say; an empty text, or what is wrong with them.
 std::string CompleteOptions(LocalizeFlags& flags) {
   if (!(flags.tolerance_deg >= 0)) return fmt::format("--tolerance-angle {}; must be >= 0", flags.tolerance_deg);
@@ -138,6 +131,17 @@ std::string CompleteOptions(LocalizeFlags& flags) {
   return {};
 }
 
+// What only the recording tells of the flags.
+std::string CheckAgainst(const runtime::Recording& recording, const LocalizeFlags& flags) {
+  std::error_code error;
+  if (fs::equivalent(flags.output, flags.recording, error))
+    return fmt::format("--output {}; must be another folder than the recording's", flags.output);
+  const double length_s = recording.stamp_s(recording.size() - 1) - recording.stamp_s(0);
+  if (flags.replay.start_s > length_s)
+    return fmt::format("--start {}; must be within the recording, which is {:.1f} s long", flags.replay.start_s, length_s);
+  return {};
+}
+
 void SayNotLocalized(const std::string& folder, const RunInfo& info, const ReplayResults& results, const runtime::Localizer& localizer,
                      Console& console) {
   console.Info(fmt::format("{}: not localized in {} scans: {}", folder, info.scans, info.last_reason));
@@ -150,10 +154,9 @@ void SayNotLocalized(const std::string& folder, const RunInfo& info, const Repla
 }
 
 void SayLocalized(const LocalizeFlags& flags, const RunInfo& info, Console& console) {
-  console.Info(
-      fmt::format("{}: localized after {:.1f} s, {} of {} scans; {} walls deviate, {} are missing, {} unplanned; {:.0f} ms per scan",
-                  flags.output, *info.time_to_localize_s, info.localized_scans, info.scans, info.deviated_walls, info.missing_walls,
-                  info.unplanned_walls, info.ms_per_scan));
+  console.Info(fmt::format("{}: localized after {:.1f} s, {} of {} scans; {}, {} missing, {} unplanned; {:.0f} ms per scan", flags.output,
+                           *info.time_to_localize_s, info.localized_scans, info.scans, Counted(info.deviated_walls, "deviated wall"),
+                           info.missing_walls, info.unplanned_walls, info.ms_per_scan));
   if (flags.options.joint.mode == runtime::EstimationMode::kIs)
     console.Info("mode is: every wall is taken to stand as planned; deviations are not looked for");
   if (info.pace) {
@@ -182,21 +185,23 @@ Status Conclude(const LocalizeFlags& flags, const RunInfo& info, const ReplayRes
 
 Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
   if (const std::string wrong = CompleteOptions(flags); !wrong.empty()) return session.Fail({ErrorCode::kBadOption, wrong});
+  const auto fit = CheckInputs({{flags.plan, InputKind::kAGraph}, {flags.recording, InputKind::kRecording}});
+  if (!fit) return session.Fail(fit.error());
   const auto plan = ReadAGraphFile(flags.plan);
   if (!plan) return session.Fail(plan.error());
   const auto hint = ParseStartHint(flags.near_m, flags.rooms, *plan);
   if (!hint) return session.Fail(hint.error());
   flags.options.hint = *hint;
+  for (const RoomId room : hint->rooms)
+    session.console.Info(fmt::format("starts in `{}`, or so it is said", plan->rooms[room.index()].name));
   const auto up_in_lidar = ParseMount(flags.mount_deg);
   if (!up_in_lidar) return session.Fail(up_in_lidar.error());
   flags.options.odometry.up_in_lidar = *up_in_lidar;
   const auto recording = runtime::Recording::Open(flags.recording);
   if (!recording) return session.Fail(recording.error());
-  std::error_code error;
-  if (fs::equivalent(flags.output, flags.recording, error)) {
-    return session.Fail({ErrorCode::kBadOption, fmt::format("--output {}; must be another folder than the recording's", flags.output)});
-  }
-  if (const auto ready = PrepareOutput(flags.output); !ready) return session.Fail(ready.error());
+  if (const std::string wrong = CheckAgainst(*recording, flags); !wrong.empty()) return session.Fail({ErrorCode::kBadOption, wrong});
+  const auto output = OutputFolder::Make(flags.output);  // before hours of work: can the results be written?
+  if (!output) return session.Fail(output.error());
 
   UpdateWriter updates(*plan, flags.updates, (fs::path(flags.output) / "deviations.json").string());
   if (const auto ready = updates.Open(); !ready) return session.Fail(ready.error());
@@ -225,14 +230,18 @@ void AddLocalize(CLI::App& app, Session& session) {
                                 "  plumb localize house.agraph rec/ -o run/\n"
                                 "  plumb localize house.agraph rec/ -o run/ --no-odometry --tolerance 0.03\n"
                                 "  plumb localize house.agraph rec/ -o run/ --rate 1");
-  sub->add_option("FILE.agraph", flags->plan, "the plan")->required();
-  sub->add_option("REC", flags->recording, "recording folder: scans/*.pcd and, where there is one, odometry.tum")->required();
-  sub->add_option("-o,--output", flags->output, "the run folder to write")->required()->type_name("RUN");
+  sub->add_option("FILE.agraph", flags->plan, "the plan")->required()->type_name("");
+  sub->add_option("REC", flags->recording, "recording folder: scans/*.pcd and, where there is one, odometry.tum")
+      ->required()
+      ->type_name("");
+  sub->add_option("-o,--output", flags->output, "the run folder to write")->required()->check(NotEmpty)->type_name("RUN");
   sub->add_option("--near", flags->near_m,
                   "the robot starts about here, plan frame; SIGMA is 2 unless given, m. A hint: what the robot sees may overrule it")
       ->type_name("X,Y[,SIGMA]");
-  sub->add_option("--room", flags->rooms, "the robot starts in a room of this name (or source id); may be given again, for either. A hint")
+  sub->add_option("--room", flags->rooms,
+                  "the robot starts in a room of this name, some words of it, or source id; may be given again, for either. A hint")
       ->type_name("NAME")
+      ->default_str("")
       ->allow_extra_args(false);
   sub->add_option("--mount", flags->mount_deg,
                   "how the lidar sits on the robot, deg; needed where it is over 35 off upright and no upright odometry.tum tells")
@@ -262,10 +271,12 @@ void AddLocalize(CLI::App& app, Session& session) {
   sub->add_option_function<std::string>(
          "--mode", [flags](const std::string& name) { flags->options.joint.mode = *runtime::ParseMode(name); },
          "what is estimated: dis all; is no deviations; uc all walls weighted alike; so all at once, with no consensus on the place before")
-      ->check(CLI::IsMember(runtime::ModeNames()))->default_str(runtime::ModeName(o.joint.mode));
+      ->check(CLI::IsMember(runtime::ModeNames()))
+      ->default_str(runtime::ModeName(o.joint.mode));
   sub->add_option("--updates", flags->updates,
                   "write a line of JSON here after every solve while driving: t, verdict, T_plan_map, changed surfaces. SIGUSR1 writes "
-                  "deviations.json as it is then");
+                  "deviations.json as it is then")
+      ->type_name("FILE");
   sub->add_option("--map-voxel", flags->map_voxel_m, "map.ply keeps one point of each cube with this edge, m");
   sub->callback([flags, sub, &session] { session.status = RunLocalize(*flags, *sub, session); });
 }

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
@@ -15,6 +14,7 @@
 #include "tools/plumb/command.h"
 #include "tools/plumb/config.h"
 #include "tools/plumb/second_program.h"
+#include "tools/plumb/usage_errors.h"
 
 namespace plumb::tools {
 
@@ -24,26 +24,6 @@ namespace {
 struct PrintConfigRequest {
   const CLI::App* subcommand = nullptr;
 };
-
-// Adds what CLI11 does not say: the flag that may have been meant.
-std::string WithHint(const CLI::App& app, const CLI::ParseError& error, const std::vector<std::string>& arguments) {
-  std::string message = error.what();
-  const auto used = app.get_subcommands();
-  if (used.empty()) {
-    const std::string near = NearestName(arguments.front(), SubcommandNames(app));
-    return near.empty() ? message : fmt::format("there is no subcommand `{}`; did you mean `{}`?", arguments.front(), near);
-  }
-  if (dynamic_cast<const CLI::ExtrasError*>(&error) == nullptr) return message;
-  const std::vector<std::string> names = FlagNames(*used.front());
-  for (const std::string& argument : arguments) {
-    if (!argument.starts_with("--")) continue;
-    const std::string name = argument.substr(2, argument.find('=') - 2);
-    if (std::find(names.begin(), names.end(), name) != names.end() || message.find(argument) == std::string::npos) continue;
-    const std::string near = NearestName(name, names);
-    if (!near.empty()) message += fmt::format("; did you mean `--{}`?", near);
-  }
-  return message;
-}
 
 #ifdef PLUMB_SECOND_PROGRAM
 void AddSubcommands(CLI::App& app, Session& session) {
@@ -81,7 +61,7 @@ int Parse(CLI::App& app, Session& session, std::vector<std::string> arguments) {
     return 0;
   } catch (const CLI::ParseError& e) {
     if (e.get_exit_code() == 0) return app.exit(e);  // --help, --version
-    session.console.Error(WithHint(app, e, arguments));
+    session.console.Error(UsageError(app, e, arguments));
     const auto used = app.get_subcommands();
     fmt::print(stderr, "Run `plumb {}--help` for the options.\n", used.empty() ? "" : used.front()->get_name() + " ");
     return static_cast<int>(Status::kBadInput);
@@ -101,13 +81,19 @@ CLI::App* AddSubcommand(CLI::App& app, Session& session, const std::string& name
   sub->add_flag_callback(
       "--print-config", [sub] { throw PrintConfigRequest{sub}; }, "print the options in force as TOML, and stop");
   sub->add_flag_function(
-      "-q,--quiet", [&session](int64_t count) { session.console.set_quiet(count > 0); }, "say nothing but results and errors");
+         "-q,--quiet", [&session](int64_t count) { session.console.set_quiet(count > 0); }, "say nothing but results and errors")
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);  // -q after a configuration file with quiet = false
   return sub;
 }
 
 }  // namespace plumb::tools
 
 int main(int argc, char** argv) {
+  char help[] = "--help";
+  if (argc > 1 && std::strcmp(argv[1], "help") == 0) {  // `plumb help inspect` is `plumb inspect --help`
+    argv[1] = argc > 2 ? argv[2] : help;
+    if (argc > 2) argv[2] = help;
+  }
   std::signal(SIGUSR1, SIG_IGN);  // a request for a report (interrupt.h) that comes early must not end what it asks about
   plumb::tools::Session session;
   try {

@@ -3,18 +3,54 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <string_view>
+#include <system_error>
+
+#include "schema/files.h"
 
 namespace plumb::tools {
 
+namespace fs = std::filesystem;
+
 Expected<void> CheckOutputs(const std::vector<OutputFlag>& outputs, const std::vector<std::string>& inputs) {
   for (const OutputFlag& output : outputs) {
+    if (output.path.empty()) continue;
+    std::error_code ignored;
+    const fs::path folder = fs::path(output.path).parent_path();
+    if (fs::is_directory(output.path, ignored))
+      return Fail(ErrorCode::kFileUnwritable, fmt::format("{} {}; is a folder, and a file is to be written", output.flag, output.path));
+    if (!folder.empty() && !fs::is_directory(folder, ignored))
+      return Fail(ErrorCode::kFileUnwritable, fmt::format("{} {}; there is no folder `{}`", output.flag, output.path, folder.string()));
     for (const std::string& input : inputs) {
       std::error_code error;
-      if (!output.path.empty() && std::filesystem::equivalent(output.path, input, error))
+      if (fs::equivalent(output.path, input, error))
         return Fail(ErrorCode::kBadOption, fmt::format("{} {}; must not be `{}` itself, which is read", output.flag, output.path, input));
     }
   }
   return {};
+}
+
+Expected<OutputFolder> OutputFolder::Make(const std::string& path) {
+  std::error_code error;
+  fs::path folder(path);
+  if (!folder.has_filename()) folder = folder.parent_path();  // "run/"
+  std::vector<std::string> missing;
+  for (fs::path at = folder; !at.empty() && !fs::exists(at, error); at = at.parent_path()) missing.push_back(at.string());
+  OutputFolder out;
+  out.made_.assign(missing.rbegin(), missing.rend());
+  fs::create_directories(folder, error);
+  if (error) return Fail(ErrorCode::kFileUnwritable, fmt::format("cannot make `{}`: {}", path, error.message()));
+  const std::string probe = (folder / ".writable").string();
+  if (auto written = WriteFileAtomically(probe, std::string_view()); !written) return tl::unexpected(written.error());
+  fs::remove(probe, error);
+  return out;
+}
+
+OutputFolder::~OutputFolder() {
+  std::error_code ignored;
+  for (; !made_.empty(); made_.pop_back()) {
+    if (!fs::is_empty(made_.back(), ignored) || !fs::remove(made_.back(), ignored)) return;
+  }
 }
 
 }  // namespace plumb::tools

@@ -11,9 +11,13 @@
 #include <utility>
 
 #include "schema/agraph_reader.h"
-#include "tools/plumb/command.h"
+#include "schema/counted.h"
 #include "tools/inspect/storeys.h"
+#include "tools/plumb/command.h"
 #include "tools/plumb/flag_names.h"
+#include "tools/plumb/inputs.h"
+#include "tools/plumb/outputs.h"
+#include "tools/plumb/usage_errors.h"
 #include "tools/simulate/sensor.h"
 
 namespace plumb::tools {
@@ -102,6 +106,7 @@ Status RunSimulate(const SimulateFlags& flags, Session& session) {
         {ErrorCode::kBadOption,
          fmt::format("`{}` holds a recording that no simulation wrote (it has no truth.json); --force replaces it", flags.output)});
   }
+  if (const auto fits = CheckInputs({{flags.plan, InputKind::kAGraph}}); !fits) return session.Fail(fits.error());
   const auto plan = ReadAGraphFile(flags.plan);
   if (!plan) return session.Fail(plan.error());
   if (!flags.storey.empty() && flags.storey != kAnyStorey) {
@@ -109,14 +114,15 @@ Status RunSimulate(const SimulateFlags& flags, Session& session) {
     if (!storey) return session.Fail(storey.error());
     options->storey = static_cast<int>(storey->index());
   }
+  const auto output = OutputFolder::Make((std::filesystem::path(flags.output) / "scans").string());
+  if (!output) return session.Fail(output.error());
   const auto done = Simulate(*plan, *options, flags.output, [&](size_t i, size_t n) { session.console.Progress("simulating", i, n); });
   if (!done) return session.Fail(done.error());
-  session.console.Info(
-      fmt::format("{}: {} scans in {:.1f} s over {:.1f} m, {} of {} rooms visited, {} walls off their plan, {} missing, {} unplanned, {} "
-                  "doorways elsewhere",
-                  flags.output, done->scans, done->duration_s, done->path_m, done->visited.size(),
-                  done->visited.size() + done->not_visited.size(), done->walls.size(), done->missing.size(), done->unplanned.size(),
-                  done->doorways_changed));
+  session.console.Info(fmt::format(
+      "{}: {} in {:.1f} s over {:.1f} m, {} of {} visited; {} off the plan, {} missing, {} unplanned, {} elsewhere or of another width",
+      flags.output, Counted(done->scans, "scan"), done->duration_s, done->path_m, done->visited.size(),
+      Counted(done->visited.size() + done->not_visited.size(), "room"), Counted(done->walls.size(), "wall"), done->missing.size(),
+      done->unplanned.size(), Counted(done->doorways_changed, "doorway")));
   return Status::kFine;
 }
 
@@ -131,8 +137,8 @@ void AddSimulate(CLI::App& app, Session& session) {
                     "  plumb simulate house.agraph --deviate 0 --duration 60 --max-duration 60 -o short/");
   std::string sensors;
   for (const std::string& name : SensorNames()) sensors += (sensors.empty() ? "" : ", ") + name;
-  sub->add_option("FILE.agraph", flags->plan, "the plan")->required();
-  sub->add_option("-o,--output", flags->output, "the recording folder to write")->required()->type_name("REC");
+  sub->add_option("FILE.agraph", flags->plan, "the plan")->required()->type_name("");
+  sub->add_option("-o,--output", flags->output, "the recording folder to write")->required()->check(NotEmpty)->type_name("REC");
   sub->add_option("--seed", o.seed, "of all random numbers; same seed, same recording");
   sub->add_option("--deviate", flags->deviate,
                   "walls that are built off the plan: their number, or a share of those that may be (25%), as far as they can")

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <optional>
 
-#include "tools/plumb/config.h"
+#include "tools/inspect/rooms.h"
 #include "tools/plumb/flag_names.h"
 
 namespace plumb::tools {
@@ -26,6 +26,16 @@ std::optional<std::vector<double>> ParseNumbers(const std::string& text) {
   return numbers;
 }
 
+// A place far off the plan is in other coordinates, or a slip.
+std::string CheckNear(const runtime::StartHint& hint, const AGraph& plan) {
+  constexpr double kBeside_m = 20;
+  Eigen::AlignedBox2d plan_box;
+  for (const Surface& s : plan.surfaces) plan_box.extend(s.start).extend(s.end);
+  if (plan_box.isEmpty() || plan_box.exteriorDistance(*hint.near_m) <= std::max(kBeside_m, 3 * hint.near_sigma_m)) return {};
+  return fmt::format("--near {:.2f},{:.2f}; must be in the plan, which reaches from {:.2f},{:.2f} to {:.2f},{:.2f} m", hint.near_m->x(),
+                     hint.near_m->y(), plan_box.min().x(), plan_box.min().y(), plan_box.max().x(), plan_box.max().y());
+}
+
 }  // namespace
 
 Expected<runtime::StartHint> ParseStartHint(const std::string& near, const std::vector<std::string>& rooms, const AGraph& plan) {
@@ -37,18 +47,14 @@ Expected<runtime::StartHint> ParseStartHint(const std::string& near, const std::
     }
     hint.near_m = Eigen::Vector2d((*numbers)[0], (*numbers)[1]);
     if (numbers->size() == 3) hint.near_sigma_m = (*numbers)[2];
+    if (const std::string wrong = CheckNear(hint, plan); !wrong.empty()) return Fail(ErrorCode::kBadOption, wrong);
   }
   for (const std::string& name : rooms) {
-    std::vector<std::string> names;
-    const size_t before = hint.rooms.size();
-    for (size_t i = 0; i < plan.rooms.size(); ++i) {
-      if (plan.rooms[i].name == name || plan.rooms[i].guid == name) hint.rooms.emplace_back(i);
-      names.push_back(plan.rooms[i].name);
+    const auto found = FindRooms(plan, name);
+    if (!found) return Fail(found.error().code, fmt::format("--room {}: {}", name, found.error().message));
+    for (const RoomId room : *found) {
+      if (std::find(hint.rooms.begin(), hint.rooms.end(), room) == hint.rooms.end()) hint.rooms.push_back(room);
     }
-    if (hint.rooms.size() > before) continue;
-    const std::string meant = NearestName(name, names);
-    return Fail(ErrorCode::kBadOption, fmt::format("--room {}: the plan has no such room{}; `plumb inspect` lists them", name,
-                                                   meant.empty() ? "" : fmt::format("; did you mean `{}`?", meant)));
   }
   if (const std::string wrong = hint.Check(); !wrong.empty()) return Fail(ErrorCode::kBadOption, InFlags(wrong));
   return hint;

@@ -11,8 +11,8 @@
 
 namespace plumb::tools {
 
-// `near`: "X,Y[,SIGMA]" in metres of the plan frame, may be empty; `rooms`: names or source ids of rooms of the plan.
-// Errors: kBadOption (not numbers; out of range; no such room, with the nearest name).
+// `near`: "X,Y[,SIGMA]" in metres of the plan frame, may be empty; `rooms`: what FindRooms takes (tools/inspect/rooms.h).
+// Errors: kBadOption (not numbers; out of range; far off the plan; no such room, with the nearest name).
 [[nodiscard]] Expected<runtime::StartHint> ParseStartHint(const std::string& near, const std::vector<std::string>& rooms,
                                                           const AGraph& plan);
 

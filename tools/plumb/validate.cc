@@ -8,6 +8,7 @@
 #include "tools/plumb/command.h"
 #include "tools/plumb/compile_limits.h"
 #include "tools/plumb/flag_names.h"
+#include "tools/plumb/inputs.h"
 #include "tools/plumb/outputs.h"
 
 namespace plumb::tools {
@@ -39,6 +40,10 @@ Status RunValidate(const ValidateFlags& flags, Session& session) {
   } else if (const auto written = WriteFileAtomically(flags.output, text); !written) {
     return session.Fail(written.error());
   }
+  if (report.outcome == compiler::Outcome::kBadInput && KindOf(flags.path) != InputKind::kAGraph) {
+    const auto fits = CheckInputs({{flags.path, InputKind::kPlan}});
+    if (!fits && fits.error().code == ErrorCode::kBadOption) session.console.Error(fits.error().message);
+  }
   return static_cast<Status>(report.outcome);
 }
 
@@ -51,7 +56,7 @@ void AddValidate(CLI::App& app, Session& session) {
                                 "  plumb validate plan.svg --scale 0.01\n"
                                 "  plumb validate house.agraph --format json\n"
                                 "  plumb validate house.ifc --strict --format sarif -o house.sarif");
-  sub->add_option("PLAN|FILE.agraph", flags->path, "what to check")->required();
+  sub->add_option("PLAN|FILE.agraph", flags->path, "what to check")->required()->type_name("");
   sub->add_option("--format", flags->format, "of what is printed: text, json or sarif (2.1.0)")
       ->check(CLI::IsMember({"text", "json", "sarif"}));
   sub->add_flag("--json", flags->json, "the same as --format json");

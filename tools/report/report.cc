@@ -235,8 +235,9 @@ std::string RoomTable(const AGraph& plan, const Deviations& deviations) {
 
 std::string Footer(const RunInfo& info) {
   std::string options;
-  for (const Option& o : info.options)
-    fmt::format_to(std::back_inserter(options), "{}{} = {}", options.empty() ? "" : ", ", o.name, o.value);
+  for (const Option& o : info.options) {
+    if (!o.value.empty()) fmt::format_to(std::back_inserter(options), "{}{} = {}", options.empty() ? "" : ", ", o.name, o.value);
+  }
   return fmt::format(
       "<footer><dl><dt>plan</dt><dd>{}</dd><dt>drawn in</dt><dd>{}</dd><dt>SHA-256 of the "
       "drawing</dt><dd>{}</dd><dt>recording</dt><dd>{}</dd>"

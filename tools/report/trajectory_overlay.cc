@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <iterator>
 #include <limits>
 #include <set>
+#include <string>
+#include <vector>
 
 namespace plumb::tools {
 namespace {
@@ -34,10 +37,22 @@ std::set<long long> LocalizedMicroseconds(const Run& run) {
   return out;
 }
 
-std::string Marker(const char* style, const Vector2d& at, const char* label, const Sheet& sheet) {
-  const double x = sheet.x(at.x()), y = sheet.y(at.y());
-  return fmt::format("<g class=\"mark {}\"><circle cx=\"{}\" cy=\"{}\" r=\"9\"/><text x=\"{}\" y=\"{}\" font-size=\"17\">{}</text></g>\n",
-                     style, Decimal(x), Decimal(y), Decimal(x), Decimal(y - 15), label);
+struct Mark {
+  const char* style;
+  Vector2d at;        // on the sheet
+  std::string label;  // empty: another one has it
+};
+
+std::string Draw(const std::vector<Mark>& marks) {
+  std::string out;
+  for (const Mark& m : marks) {
+    const std::string x = Decimal(m.at.x());
+    fmt::format_to(std::back_inserter(out), "<g class=\"mark {}\"><circle cx=\"{}\" cy=\"{}\" r=\"9\"/>", m.style, x, Decimal(m.at.y()));
+    if (!m.label.empty())
+      fmt::format_to(std::back_inserter(out), "<text x=\"{}\" y=\"{}\" font-size=\"17\">{}</text>", x, Decimal(m.at.y() - 15), m.label);
+    out += "</g>\n";
+  }
+  return out;
 }
 
 Vector2d Position(const runtime::StampedPose& pose) { return pose.T.translation().head<2>(); }
@@ -95,13 +110,22 @@ std::string DrawTrajectory(const AGraph& graph, StoreyId storey, const Run& run,
     has_last = true;
   }
   if (!stretch.data.empty()) out += Draw(stretch);
+  std::vector<Mark> marks;
   const auto mark = [&](const char* style, const runtime::StampedPose& pose, const char* label) {
-    if (StoreyAt(graph, pose.T.translation().z()) == storey) out += Marker(style, Position(pose), label, sheet);
+    if (StoreyAt(graph, pose.T.translation().z()) != storey) return;
+    constexpr double kApart = 80;  // nearer than this one label would stand on the other
+    const Vector2d at(sheet.x(Position(pose).x()), sheet.y(Position(pose).y()));
+    const auto near = std::find_if(marks.begin(), marks.end(), [&](const Mark& m) {
+      return !m.label.empty() && std::abs(m.at.x() - at.x()) < kApart && std::abs(m.at.y() - at.y()) < kApart / 4;
+    });
+    const bool is_apart = near == marks.end();
+    if (!is_apart) near->label += std::string(", ") + label;
+    marks.push_back({style, at, is_apart ? label : ""});
   };
   mark("start", way.front(), "start");
   if (!run.online.empty()) mark("fix", run.online.front(), "first fix");
   mark("end", way.back(), "end");
-  return out;
+  return out + Draw(marks);
 }
 
 }  // namespace plumb::tools

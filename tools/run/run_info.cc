@@ -6,11 +6,23 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "runtime/numerics/rounded.h"
 #include "schema/files.h"
 
 namespace plumb::tools {
 
+namespace {
+
 using Json = nlohmann::ordered_json;
+
+// Text that is no JSON, as bytes of another encoding in a path, stays text.
+Json FromLiteral(const std::string& literal) {
+  if (literal.empty()) return nullptr;
+  Json value = Json::parse(literal, nullptr, false);
+  return value.is_discarded() ? Json(literal) : value;
+}
+
+}  // namespace
 
 Pace PaceOf(std::vector<double> latencies_ms) {
   Pace pace;
@@ -30,7 +42,7 @@ std::string RunInfoToJson(const RunInfo& info) {
   out["recording"] = info.recording_path;
   out["mode"] = info.mode;
   out["options"] = Json::object();
-  for (const Option& o : info.options) out["options"][o.name] = o.value;
+  for (const Option& o : info.options) out["options"][o.name] = FromLiteral(o.value);
   Json summary;
   summary["scans"] = info.scans;
   summary["localized_scans"] = info.localized_scans;
@@ -39,18 +51,18 @@ std::string RunInfoToJson(const RunInfo& info) {
   summary["planar"] = info.planar;
   summary["unordered_scans"] = info.unordered_scans;
   summary["interrupted"] = info.interrupted;
-  summary["time_to_localize_s"] = info.time_to_localize_s ? Json(*info.time_to_localize_s) : Json(nullptr);
-  summary["duration_s"] = info.duration_s;
+  summary["time_to_localize_s"] = info.time_to_localize_s ? Json(runtime::Rounded(*info.time_to_localize_s, 1e3)) : Json(nullptr);
+  summary["duration_s"] = runtime::Rounded(info.duration_s, 1e3);
   summary["keyframes"] = info.keyframes;
   summary["deviated_walls"] = info.deviated_walls;
   summary["missing_walls"] = info.missing_walls;
   summary["unplanned_walls"] = info.unplanned_walls;
-  summary["range_bias_m"] = info.range_bias_m;
-  summary["ms_per_scan"] = info.ms_per_scan;
+  summary["range_bias_m"] = runtime::Rounded(info.range_bias_m, 1e6);
+  summary["ms_per_scan"] = runtime::Rounded(info.ms_per_scan, 1e3);
   if (info.pace) {
     summary["pace"] = {{"rate", info.pace->rate},
-                       {"latency_p50_ms", info.pace->latency_p50_ms},
-                       {"latency_p99_ms", info.pace->latency_p99_ms},
+                       {"latency_p50_ms", runtime::Rounded(info.pace->latency_p50_ms, 1e3)},
+                       {"latency_p99_ms", runtime::Rounded(info.pace->latency_p99_ms, 1e3)},
                        {"held_solves", info.pace->held_solves},
                        {"unmapped_scans", info.pace->unmapped_scans}};
   }
@@ -72,7 +84,7 @@ Expected<RunInfo> ParseRunInfo(const std::string& json, const std::string& sourc
     plan.at("source_sha256").get_to(info.plan_source_sha256);
     root.at("recording").get_to(info.recording_path);
     info.mode = root.value("mode", info.mode);
-    for (const auto& [name, value] : root.at("options").items()) info.options.push_back({name, value.get<std::string>()});
+    for (const auto& [name, value] : root.at("options").items()) info.options.push_back({name, value.is_null() ? "" : value.dump()});
     const Json& summary = root.at("summary");
     summary.at("scans").get_to(info.scans);
     summary.at("localized_scans").get_to(info.localized_scans);

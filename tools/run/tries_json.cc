@@ -8,6 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "runtime/numerics/rounded.h"
+
 namespace plumb::tools {
 namespace {
 
@@ -15,27 +17,26 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kDegPerRad = 180 / std::numbers::pi;
 
-// Digits beyond these are noise.
-double Rounded(double value, double unit) { return std::round(value / unit) * unit; }
+using runtime::Rounded;  // further digits are noise
 
 Json RoomToJson(const std::optional<RoomId>& room) { return room ? Json(room->index()) : Json(nullptr); }
 
 Json HypothesisToJson(const HypothesisRow& h) {
   Json out;
-  out["probability"] = Rounded(h.probability, 1e-6);
-  out["log_likelihood"] = Rounded(h.log_likelihood, 1e-2);
-  out["position"] = {Rounded(h.position_m.x(), 1e-3), Rounded(h.position_m.y(), 1e-3), Rounded(h.position_m.z(), 1e-3)};
-  out["yaw_deg"] = Rounded(h.yaw_rad * kDegPerRad, 1e-2);
-  out["sigma_xy_m"] = h.sigma_xy_m ? Json(Rounded(*h.sigma_xy_m, 1e-3)) : Json(nullptr);
-  out["sigma_yaw_deg"] = h.sigma_yaw_rad ? Json(Rounded(*h.sigma_yaw_rad * kDegPerRad, 1e-2)) : Json(nullptr);
+  out["probability"] = Rounded(h.probability, 1e6);
+  out["log_likelihood"] = Rounded(h.log_likelihood, 1e2);
+  out["position"] = {Rounded(h.position_m.x(), 1e3), Rounded(h.position_m.y(), 1e3), Rounded(h.position_m.z(), 1e3)};
+  out["yaw_deg"] = Rounded(h.yaw_rad * kDegPerRad, 1e2);
+  out["sigma_xy_m"] = h.sigma_xy_m ? Json(Rounded(*h.sigma_xy_m, 1e3)) : Json(nullptr);
+  out["sigma_yaw_deg"] = h.sigma_yaw_rad ? Json(Rounded(*h.sigma_yaw_rad * kDegPerRad, 1e2)) : Json(nullptr);
   out["storey"] = h.storey;
   out["room"] = RoomToJson(h.room);
   out["room_name"] = h.room_name;
   out["consistent_planes"] = h.consistent_planes;
-  out["consistent_ratio"] = Rounded(h.consistent_ratio, 1e-3);
-  out["explained_ratio"] = Rounded(h.explained_ratio, 1e-3);
-  out["through_ratio"] = Rounded(h.through_ratio, 1e-3);
-  out["in_front_ratio"] = Rounded(h.in_front_ratio, 1e-3);
+  out["consistent_ratio"] = Rounded(h.consistent_ratio, 1e3);
+  out["explained_ratio"] = Rounded(h.explained_ratio, 1e3);
+  out["through_ratio"] = Rounded(h.through_ratio, 1e3);
+  out["in_front_ratio"] = Rounded(h.in_front_ratio, 1e3);
   return out;
 }
 
@@ -44,10 +45,10 @@ Json DriveToToJson(const DriveToRow& d) {
   out["rooms"] = Json::array();
   for (const std::optional<RoomId>& room : d.rooms) out["rooms"].push_back(RoomToJson(room));
   out["room_names"] = d.room_names;
-  out["position"] = {Rounded(d.position_m.x(), 1e-3), Rounded(d.position_m.y(), 1e-3), Rounded(d.position_m.z(), 1e-3)};
-  out["bearing_deg"] = Rounded(d.bearing_rad * kDegPerRad, 1e-1);
-  out["distance_m"] = Rounded(d.distance_m, 1e-2);
-  out["expected_nats"] = Rounded(d.expected_nats, 1e-2);
+  out["position"] = {Rounded(d.position_m.x(), 1e3), Rounded(d.position_m.y(), 1e3), Rounded(d.position_m.z(), 1e3)};
+  out["bearing_deg"] = Rounded(d.bearing_rad * kDegPerRad, 1e1);
+  out["distance_m"] = Rounded(d.distance_m, 1e2);
+  out["expected_nats"] = Rounded(d.expected_nats, 1e2);
   out["rivals_split"] = d.rivals_split;
   return out;
 }
@@ -110,7 +111,7 @@ std::string TriesToJson(const std::vector<TryRow>& tries) {
     row["t"] = t.stamp_s;
     row["verdict"] = t.verdict;
     row["reason"] = t.reason;
-    row["probability_outside"] = Rounded(t.probability_outside, 1e-6);
+    row["probability_outside"] = Rounded(t.probability_outside, 1e6);
     row["hypotheses"] = Json::array();
     for (const HypothesisRow& h : t.hypotheses) row["hypotheses"].push_back(HypothesisToJson(h));
     if (t.guidance) {

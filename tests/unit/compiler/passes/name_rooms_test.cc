@@ -61,6 +61,18 @@ TEST(NameRooms, ARoomWithoutSpaceIsReported) {
   EXPECT_NE(FindRoom(graph, "West"), nullptr);
 }
 
+TEST(NameRooms, ASpaceThatIsLargerThanTheRoomOfAnotherIsNoPartOfIt) {
+  PlanIr plan = test::TwoRooms();
+  test::PlanBuilder b;
+  b.plan = plan;
+  b.On(0).Space("Twice", test::Rectangle({-0.2, -0.2}, {5.1, 4.2}));
+  DiagnosticSink sink;
+  Build(b.plan, sink);
+  EXPECT_EQ(CountOf(sink, DiagnosticKind::kSpaceWithinRoom), 0u);
+  ASSERT_EQ(CountOf(sink, DiagnosticKind::kRoomDiffersFromSpace), 1u);
+  EXPECT_NE(sink.all()[0].message.find("which is that of space `West`"), std::string::npos) << sink.all()[0].message;
+}
+
 TEST(NameRooms, ASpaceWithoutSolidIsANote) {
   PlanIr plan = test::TwoRooms();
   plan.spaces[1].body = {};

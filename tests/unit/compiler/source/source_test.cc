@@ -178,6 +178,20 @@ TEST(IsSupported, RefusesOthersWithAWayOut) {
   EXPECT_EQ(diagnostics.all()[0].kind, DiagnosticKind::kUnknownFormat);
   EXPECT_NE(diagnostics.all()[0].message.find("DWG"), std::string::npos);
   EXPECT_NE(diagnostics.all()[0].hint.find("DXF"), std::string::npos);
+  EXPECT_EQ(DetectFormat(std::string_view("\x18\0\0\0PLAG\0\0", 10)), SourceFormat::kAGraph);
+}
+
+TEST(IsSupported, QuotesTheBeginningOfWhatItDoesNotKnow) {
+  const auto message = [](const std::string& path, std::string bytes) {
+    DiagnosticSink diagnostics;
+    EXPECT_FALSE(IsSupported({.path = path, .bytes = std::move(bytes), .sha256 = {}, .format = SourceFormat::kUnknown}, diagnostics));
+    return diagnostics.all().at(0).message;
+  };
+  EXPECT_EQ(message("a.ifc", " FILE_SCHEMA\nDATA"),
+            "`a.ifc` begins with `FILE_SCHEMA`; an IFC file in STEP syntax begins with `ISO-10303-21;`");
+  EXPECT_NE(message("a.pdf", std::string("\x01\xff\0rest of it", 13)).find("begins with the bytes 01 ff 00 72 65 73 74 20; no plan"),
+            std::string::npos);
+  EXPECT_EQ(message("a.ifc", ""), "`a.ifc` is empty");
 }
 
 TEST(SourceOptions, CheckNamesFieldAndRule) {

@@ -7,48 +7,13 @@
 #include <numbers>
 
 #include "runtime/optimization/seen_walls.h"
-#include "tests/support/house.h"
-#include "tests/support/synthetic_sgraph.h"
+#include "tests/unit/runtime/optimization/solved_drive.h"
 
 namespace plumb::runtime {
 namespace {
 
 using test::Drive;
 using test::DriveOptions;
-
-constexpr double kDeg = std::numbers::pi / 180;
-enum HouseWall : size_t { kSouth, kEast, kNorth, kWest, kMiddle, kAcross, kNumWalls };
-
-struct Solved {
-  Drive drive;
-  JointResult result;
-  std::vector<Match> matches;
-};
-
-// As the localizer does: match, solve, write back, repeat.
-Solved SolveDrive(const AGraph& house, Drive drive, int turns = 2) {
-  Solved s{std::move(drive), {}, {}};
-  Eigen::Isometry3d T = test::Disturbed(s.drive.T_plan_map, 0.05, -0.04, 0.7 * kDeg);
-  std::vector<WallDeviation> known;
-  for (int i = 0; i < turns; ++i) {
-    s.matches = MatchSurfaces(s.drive.map, house, T, known);
-    s.result = OptimizeJointly(s.drive.map, house, s.matches, T);
-    T = s.result.T_plan_map;
-    known = s.result.Deviations(house.walls.size());
-    for (size_t k = 0; k < s.result.T_map_kf.size(); ++k) s.drive.map.keyframes[k].T_map_kf = s.result.T_map_kf[k];
-  }
-  return s;
-}
-
-Solved Solve(const AGraph& house, const DriveOptions& options) { return SolveDrive(house, test::DriveThroughHouse(house, options)); }
-
-DriveOptions WithDeviations(uint64_t seed, std::vector<std::pair<HouseWall, WallDeviation>> deviated) {
-  DriveOptions options;
-  options.seed = seed;
-  options.deviations.assign(kNumWalls, {});
-  for (const auto& [wall, deviation] : deviated) options.deviations[wall] = deviation;
-  return options;
-}
 
 void ExpectPlaceNear(const Solved& s, double max_m, double max_rad) {
   const Eigen::Isometry3d error = s.drive.T_plan_map.inverse() * s.result.T_plan_map;
@@ -311,45 +276,6 @@ TEST(OptimizeJointly, APatchThatGoesOnBeyondItsFaceTellsLessOfItsTurn) {
               0.3 * s.result.walls[kNorth].evidence.covariance(1, 1));
 }
 
-TEST(OptimizeJointly, TwoSigmaCovers) {
-  const AGraph house = test::MakeHouse();
-  int inside = 0, total = 0;
-  for (uint64_t seed = 1; seed <= 20; ++seed) {
-    const DriveOptions options = WithDeviations(seed, {{kEast, {0.2, 3 * kDeg}}});
-    const Solved s = Solve(house, options);
-    for (const WallEstimate& w : s.result.walls) {
-      const WallDeviation truth = options.deviations[w.wall.index()];
-      inside += std::abs(w.deviation.offset_m - truth.offset_m) < 2 * std::sqrt(w.cov(0, 0));
-      inside += std::abs(w.deviation.yaw_rad - truth.yaw_rad) < 2 * std::sqrt(w.cov(1, 1));
-      total += 2;
-      EXPECT_LT(std::sqrt(w.cov(0, 0)), 0.02);
-      EXPECT_LT(std::sqrt(w.cov(1, 1)), 0.3 * kDeg);
-    }
-    const Eigen::Vector3d e = s.result.T_plan_map.translation() - s.drive.T_plan_map.translation();
-    for (int i = 0; i < 2; ++i) inside += std::abs(e[i]) < 2 * std::sqrt(s.result.cov_xy_yaw(i, i)), ++total;
-  }
-  EXPECT_GT(inside, 0.94 * total);
-}
-
-// The prior's tolerance is part of the stated sigma: a house whose walls all stand off by it is covered, too.
-TEST(OptimizeJointly, TwoSigmaCoversWallsWithinTolerance) {
-  const AGraph house = test::MakeHouse();
-  test::Random random(4);
-  int inside = 0, total = 0;
-  for (uint64_t seed = 1; seed <= 20; ++seed) {
-    DriveOptions options = WithDeviations(seed, {});
-    for (WallDeviation& d : options.deviations)
-      d = {random.Normal(CouplingOptions{}.offset_tau0_m), random.Normal(CouplingOptions{}.yaw_tau0_rad)};
-    const Solved s = Solve(house, options);
-    for (const WallEstimate& w : s.result.walls) {
-      inside += std::abs(w.deviation.offset_m - options.deviations[w.wall.index()].offset_m) < 2 * std::sqrt(w.cov(0, 0));
-      inside += std::abs(w.deviation.yaw_rad - options.deviations[w.wall.index()].yaw_rad) < 2 * std::sqrt(w.cov(1, 1));
-      total += 2;
-    }
-  }
-  EXPECT_GT(inside, 0.90 * total);
-}
-
 TEST(OptimizeJointly, CorrectsDriftOfTheMap) {
   const AGraph house = test::MakeHouse();
   DriveOptions options = WithDeviations(11, {{kWest, {0.1, 0}}});
@@ -379,107 +305,6 @@ TEST(OptimizeJointly, CupboardInFrontOfAWallIsNoDeviation) {
   for (const Match& m : s.matches) EXPECT_LT(m.map_surface, cupboard);
   for (const WallEstimate& w : s.result.walls) EXPECT_LT(w.p_deviated, 0.5) << w.wall.value;
   ExpectDeviationsNear(s, options, 0.01, 0.3 * kDeg);
-}
-
-TEST(OptimizeJointly, TellsWhereTheFrameRestsOnOneWall) {
-  const AGraph house = test::MakeHouse();
-  const Solved s = Solve(house, WithDeviations(1, {{kEast, {0.2, 0}}}));
-  ASSERT_EQ(s.result.directions.size(), 2u);
-  EXPECT_NEAR(s.result.directions[0].axis_rad, 0, 1e-6);
-  EXPECT_EQ(s.result.directions[0].consistent, 2);  // west and middle against east
-  EXPECT_EQ(s.result.directions[0].next_cluster, 1);
-  EXPECT_TRUE(s.result.directions[0].ambiguous());
-  EXPECT_NEAR(s.result.directions[1].axis_rad, std::numbers::pi / 2, 1e-6);
-  EXPECT_EQ(s.result.directions[1].margin(), 3);
-  EXPECT_FALSE(s.result.directions[1].ambiguous());
-  EXPECT_NE(s.result.gauge.find("ambiguous"), std::string::npos);
-}
-
-// Only the west and middle walls: nothing tells where the plan lies along y. The answer must say so.
-TEST(OptimizeJointly, CorridorLeavesItsDirectionOpen) {
-  const AGraph house = test::MakeHouse();
-  Drive drive = test::DriveThroughHouse(house, WithDeviations(1, {}));
-  std::vector<Match> matches = MatchSurfaces(drive.map, house, drive.T_plan_map, {});
-  std::erase_if(matches, [&](const Match& m) {
-    return m.plan_surface.valid() && house.surfaces[m.plan_surface.index()].wall != WallId(kWest) &&
-           house.surfaces[m.plan_surface.index()].wall != WallId(kMiddle);
-  });
-  const JointResult result = OptimizeJointly(drive.map, house, matches, drive.T_plan_map);
-  EXPECT_TRUE(result.converged);
-  EXPECT_GT(std::sqrt(result.cov_xy_yaw(1, 1)), 1.0);
-  EXPECT_LT(std::sqrt(result.cov_xy_yaw(0, 0)), 0.05);
-}
-
-// A deviation without a prior absorbs its own factor: then the plan does not hold the map, however precise the map is.
-TEST(OptimizeJointly, OnlyThePriorOnDeviationsTiesThePlan) {
-  const AGraph house = test::MakeHouse();
-  const Drive drive = test::DriveThroughHouse(house, WithDeviations(1, {}));
-  const std::vector<Match> matches = MatchSurfaces(drive.map, house, drive.T_plan_map, {});
-  JointOptions options;
-  options.coupling.offset_tau0_m = 10;
-  options.coupling.offset_tau1_m = 11;
-  options.coupling.yaw_tau0_rad = 3;
-  options.coupling.yaw_tau1_rad = 4;
-  for (const double precision : {1.0, 0.01}) {
-    options.point_sigma_m = 0.03 * precision;
-    options.observation_floor_m = 0.005 * precision;
-    options.observation_floor_rad = 0.003 * precision;
-    const JointResult result = OptimizeJointly(drive.map, house, matches, drive.T_plan_map, options);
-    EXPECT_GT(std::sqrt(result.cov_xy_yaw(0, 0)), 2.0);
-    EXPECT_GT(std::sqrt(result.cov_xy_yaw(1, 1)), 2.0);
-  }
-}
-
-TEST(OptimizeJointly, SameInputSameBytes) {
-  const AGraph house = test::MakeHouse();
-  const Drive drive = test::DriveThroughHouse(house, WithDeviations(8, {{kSouth, {0.1, 0.02}}}));
-  const std::vector<Match> matches = MatchSurfaces(drive.map, house, drive.T_plan_map, {});
-  const JointResult a = OptimizeJointly(drive.map, house, matches, drive.T_plan_map),
-                    b = OptimizeJointly(drive.map, house, matches, drive.T_plan_map);
-  EXPECT_EQ(a.T_plan_map.matrix(), b.T_plan_map.matrix());
-  EXPECT_EQ(a.cov_xy_yaw, b.cov_xy_yaw);
-  ASSERT_EQ(a.walls.size(), b.walls.size());
-  for (size_t i = 0; i < a.walls.size(); ++i) {
-    EXPECT_EQ(a.walls[i].deviation.offset_m, b.walls[i].deviation.offset_m);
-    EXPECT_EQ(a.walls[i].cov_all, b.walls[i].cov_all);
-  }
-  EXPECT_EQ(a.gauge, b.gauge);
-}
-
-TEST(OptimizeJointly, WarmStartTakesFewIterations) {
-  const AGraph house = test::MakeHouse();
-  Solved s = Solve(house, WithDeviations(8, {{kSouth, {0.1, 0.02}}}));
-  const JointResult again = OptimizeJointly(s.drive.map, house, s.matches, s.result.T_plan_map);
-  EXPECT_LE(again.iterations, 6);
-  EXPECT_LT((again.T_plan_map.translation() - s.result.T_plan_map.translation()).norm(), 1e-3);
-}
-
-TEST(OptimizeJointly, StartsAsAFailureAndNamesBadInput) {
-  const AGraph house = test::MakeHouse();
-  EXPECT_EQ(JointResult{}.message, "not run");
-  EXPECT_FALSE(JointResult{}.converged);
-  const JointResult empty = OptimizeJointly({}, house, {}, Eigen::Isometry3d::Identity());
-  EXPECT_FALSE(empty.converged);
-  EXPECT_EQ(empty.message, "the map has no keyframes");
-  const Drive drive = test::DriveThroughHouse(house, {});
-  EXPECT_FALSE(OptimizeJointly(drive.map, house, {{0, SurfaceId(999), RoomId(), 0, 0, {}}}, drive.T_plan_map).converged);
-  JointOptions options;
-  options.correlation = 0.5;
-  EXPECT_EQ(options.Check(), "JointOptions.correlation = 0.5; must be >= 1");
-  EXPECT_EQ(OptimizeJointly(drive.map, house, {}, drive.T_plan_map, options).message, options.Check());
-}
-
-TEST(OptimizeJointly, WithoutMatchesItIsPlainSlam) {
-  const AGraph house = test::MakeHouse();
-  const Drive drive = test::DriveThroughHouse(house, {});
-  const JointResult result = OptimizeJointly(drive.map, house, {}, drive.T_plan_map);
-  EXPECT_TRUE(result.converged) << result.message;
-  EXPECT_TRUE(result.walls.empty());
-  double worst = 0;
-  for (size_t k = 0; k < result.T_map_kf.size(); ++k) {
-    worst = std::max(worst, (drive.T_plan_map * result.T_map_kf[k].translation() - drive.T_plan_kf[k].translation()).norm());
-  }
-  EXPECT_LT(worst, 0.04);
 }
 
 }  // namespace

@@ -78,6 +78,21 @@ TEST_F(RecordingFolder, RefusesFoldersWithoutScans) {
   EXPECT_EQ(Recording::Open(folder_.path()).error().code, ErrorCode::kNotARecording);
 }
 
+TEST_F(RecordingFolder, GoesOnPastFaultsForThoseWhoLookForThem) {
+  AddScan("0000000001.000000000.pcd", 1);
+  AddScan("cloud.pcd", 2);
+  ASSERT_TRUE(WriteFileAtomically(folder_ / "odometry.tum", std::string_view("broken\n")));
+  std::vector<Error> faults;
+  const Expected<Recording> recording = Recording::OpenWithFaults(folder_.path(), faults);
+  ASSERT_TRUE(recording) << recording.error().message;
+  EXPECT_EQ(recording->size(), 1u);
+  EXPECT_TRUE(recording->odometry().empty());
+  ASSERT_EQ(faults.size(), 2u);
+  EXPECT_NE(faults[0].message.find("cloud.pcd"), std::string::npos);
+  EXPECT_EQ(faults[1].code, ErrorCode::kBadTrajectory);
+  EXPECT_EQ(Recording::Open(folder_.path()).error().message, faults[0].message);
+}
+
 struct Case {
   const char* folder;
   size_t scans;

@@ -73,6 +73,21 @@ TEST(Dimensions, OfTwoOpeningsBehindEachOtherTheForemostIsMeasured) {
   EXPECT_NEAR(west.stops_m[2], 2.5, 1e-9);
 }
 
+TEST(Dimensions, PassOverPostsThatStandByThemselves) {
+  AGraph g = test::MakeHouse();
+  const auto add_post = [&g](double x, double size_m) {
+    const WallId post = test::AddWall(g, "post", {x, 2}, {x + size_m, 2});
+    test::AddSurface(g, post, RoomId(), {x, 2}, {x + size_m, 2});
+  };
+  add_post(-5, 0.9);
+  EXPECT_NEAR(OuterRectangleOf(g, StoreyId(0)).size.sizes().x(), 9.6, 1e-9);
+  EXPECT_NEAR(DimensionsOf(g, StoreyId(0))[1].outward_m, 0.3, 1e-9) << "along the house";
+  add_post(-4.1, 0.9);  // one of 1.8 m with the other
+  EXPECT_NEAR(OuterRectangleOf(g, StoreyId(0)).size.sizes().x(), 14.3, 1e-9);
+  g.surfaces.erase(g.surfaces.begin(), g.surfaces.end() - 1);
+  EXPECT_NEAR(OuterRectangleOf(g, StoreyId(0)).size.sizes().x(), 0.9, 1e-9) << "where there is nothing else";
+}
+
 TEST(Dimensions, AreWrittenInMetres) {
   const AGraph house = test::MakeHouse();
   const Sheet sheet({-1, -1}, {10, 7}, 2);

@@ -62,6 +62,17 @@ TEST(PlanSheet, HoldsAllStoreysThatHaveSomethingToDraw) {
   EXPECT_THAT(FloorPlansToSvg(AGraph{}, {}), HasSubstr("</svg>"));
 }
 
+// Else the cut through another storey's walls would lie over the sheets beside it.
+TEST(PlanSheet, ShowsEachPlanThroughAWindow) {
+  const AGraph g = TwoStoreys();
+  const std::string svg = FloorPlansToSvg(g, {StoreyId(0)});
+  const size_t window = svg.find("<svg width=\"2180.0\" height=");
+  ASSERT_NE(window, std::string::npos);
+  EXPECT_LT(window, svg.find("class=\"floor\""));
+  EXPECT_LT(svg.find("class=\"dim\""), svg.find("</svg>", window));
+  EXPECT_GT(svg.find("class=\"title\""), svg.find("</svg>", window));
+}
+
 TEST(PlanSheet, LargePlansGetASmallerScale) {
   AGraph g = TwoStoreys();
   g.walls[0].axis_end.x() += 50;
@@ -76,6 +87,57 @@ TEST(RoomLabels, LongNamesAreBrokenInNarrowRooms) {
   const std::string svg = DrawRoomLabels(g, StoreyId(0), SheetOf(g, StoreyId(0)));
   EXPECT_THAT(svg, HasSubstr(">Reception and</text>"));
   EXPECT_THAT(svg, HasSubstr(">waiting room</text>"));
+}
+
+TEST(PlanSheet, ScaleBarsHaveRoundSteps) {
+  const Eigen::Vector2d zero = Eigen::Vector2d::Zero();
+  for (const auto& [denominator, first, last] : {std::tuple(20.0, ">0.2<", ">1 m<"),
+                                                 {50.0, ">0.5<", ">2 m<"},
+                                                 {100.0, ">1<", ">5 m<"},
+                                                 {200.0, ">2<", ">10 m<"},
+                                                 {500.0, ">5<", ">20 m<"}}) {
+    const std::string bar = DrawScaleBar(Sheet(zero, zero, 1, denominator), 0, 0);
+    EXPECT_THAT(bar, HasSubstr(first));
+    EXPECT_THAT(bar, HasSubstr(last));
+  }
+}
+
+TEST(PlanSheet, IsCutBelowTheCeilings) {
+  AGraph g = TwoStoreys();
+  EXPECT_EQ(SectionHeight(g, StoreyId(0), {.section_height_m = 2.5}), 2.5);
+  EXPECT_DOUBLE_EQ(SectionHeight(g, StoreyId(0), {.section_height_m = 2.6}), 2.5);
+  EXPECT_EQ(SectionHeight(g, StoreyId(1), {.section_height_m = 9}), 9) << "it has neither rooms nor walls";
+  g.walls[0].storey = StoreyId(1);
+  g.walls[0].z_max_m = 3.5;
+  EXPECT_DOUBLE_EQ(SectionHeight(g, StoreyId(1), {}), 0.4) << "a parapet";
+  g.walls[0].storey = StoreyId(0);
+  EXPECT_THAT(FloorPlansToSvg(g, {StoreyId(0)}, {.section_height_m = 3}), HasSubstr("cut 2.50 m above"));
+  for (Room& room : g.rooms) room.ceiling_z_m = 0.15;
+  EXPECT_DOUBLE_EQ(SectionHeight(g, StoreyId(0), {}), 0.075);
+}
+
+// Two upright labels of two lines each, 30 cm of the building wide, in rooms that are 20 cm apart.
+TEST(RoomLabels, DoNotCross) {
+  AGraph g = test::MakeHouse();
+  g.rooms.resize(2);
+  for (size_t i = 0; i < 2; ++i) {
+    const double x = 0.2 * static_cast<double>(i);
+    g.rooms[i].polygon = {{x, 0}, {x + 0.2, 0}, {x + 0.2, 0.5}, {x, 0.5}};
+    g.rooms[i].center = {x + 0.1, 0.25, 0};
+    g.rooms[i].name = i == 0 ? "Wardrobe" : "Pantry";
+    g.rooms[i].guid = "of the source";
+  }
+  const std::string svg = DrawRoomLabels(g, StoreyId(0), SheetOf(g, StoreyId(0)));
+  const auto x_of = [&svg](const std::string& name) {
+    const size_t begin = svg.rfind("rotate(-90 ", svg.find(">" + name + "<"));
+    return std::stod(svg.substr(begin + 11));
+  };
+  // The one has lost its area: three half lines from one to the other.
+  EXPECT_GE(std::abs(x_of("Wardrobe") - x_of("Pantry")), 3 * 0.5 * 1.15 * 13) << svg;
+  EXPECT_THAT(svg, HasSubstr("m²"));
+  EXPECT_EQ(svg.find("m²"), svg.rfind("m²"));
+  g.rooms[0].guid = g.rooms[1].guid = "";
+  EXPECT_EQ(DrawRoomLabels(g, StoreyId(0), SheetOf(g, StoreyId(0))), "") << "made names are left out";
 }
 
 TEST(RoomLabels, StandUprightInCorridors) {

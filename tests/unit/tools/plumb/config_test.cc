@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <CLI/CLI.hpp>
+#include <map>
 
 #include "schema/files.h"
 #include "tests/support/temporary_folder.h"
@@ -72,11 +73,21 @@ TEST_F(Config, PrintedConfigReadsBack) {
   EXPECT_THAT(*out, ::testing::Contains("--quiet=false"));
 }
 
-TEST(NearestName, IsEmptyWhereNothingIsNear) {
-  const std::vector<std::string> names = {"seed", "sensor", "sensor-height"};
-  EXPECT_EQ(NearestName("sensr", names), "sensor");
-  EXPECT_EQ(NearestName("sensor-hieght", names), "sensor-height");
-  EXPECT_EQ(NearestName("frobnicate", names), "");
+TEST_F(Config, ValuesAreLiteralsOfTomlAndJson) {
+  double speed_m_s = 0.5;
+  std::vector<std::string> rooms;
+  bool open = true;
+  CLI::App* simulate = app_.get_subcommand("simulate");
+  simulate->add_option("--speed", speed_m_s);
+  simulate->add_option("--room", rooms)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll)->allow_extra_args(false);
+  simulate->add_option("--open", open);
+  std::vector<std::string> reversed = {"7", "--room", ".5", "--speed", "05", "--seed", "simulate"};
+  app_.parse(reversed);
+  std::map<std::string, std::string> values;
+  for (const Option& o : OptionValues(*simulate)) values[o.name] = o.value;
+  EXPECT_EQ(values,
+            (std::map<std::string, std::string>{
+                {"seed", "5"}, {"sensor", "\"vlp16\""}, {"quiet", "false"}, {"speed", "0.5"}, {"room", "[\"7\"]"}, {"open", "true"}}));
 }
 
 }  // namespace

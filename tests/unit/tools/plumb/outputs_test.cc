@@ -22,13 +22,41 @@ TEST(CheckOutputs, RefusesWhatIsReadByWhateverPath) {
   EXPECT_TRUE(CheckOutputs({{"--output", other}, {"--svg", ""}}, {plan}));
 }
 
+TEST(CheckOutputs, RefusesFoldersAndFilesInNone) {
+  const test::TemporaryFolder folder;
+  EXPECT_FALSE(CheckOutputs({{"--output", folder.path()}}, {}));
+  EXPECT_FALSE(CheckOutputs({{"--output", folder / "none/a.agraph"}}, {}));
+  EXPECT_TRUE(CheckOutputs({{"--output", folder / "a.agraph"}, {"--output", "a.agraph"}}, {}));
+}
+
+TEST(OutputFolder, RemovesWhatItMadeUnlessSomethingIsInIt) {
+  namespace fs = std::filesystem;
+  const test::TemporaryFolder folder;
+  for (const char* end : {"", "/"}) {
+    { ASSERT_TRUE(OutputFolder::Make(folder / "a/b" + end)); }
+    EXPECT_FALSE(fs::exists(folder / "a"));
+  }
+  fs::create_directories(folder / "old");
+  { ASSERT_TRUE(OutputFolder::Make(folder / "old")); }
+  EXPECT_TRUE(fs::exists(folder / "old")) << "it was there before";
+  {
+    const auto made = OutputFolder::Make(folder / "old/a/b");
+    ASSERT_TRUE(made);
+    ASSERT_TRUE(WriteFileAtomically(folder / "old/a/file", std::string_view("x")));
+  }
+  EXPECT_FALSE(fs::exists(folder / "old/a/b"));
+  EXPECT_TRUE(fs::exists(folder / "old/a/file"));
+  EXPECT_FALSE(OutputFolder::Make(folder / "old/a/file/c"));
+}
+
 TEST(InFlags, NamesTheFlagOfAField) {
   EXPECT_EQ(InFlags("DrawingFileOptions.scale_m = -1; must be in [0, 10000)"), "--scale -1; must be in [0, 10000)");
   EXPECT_EQ(InFlags("SimulateOptions.speed_m_s = 9; must be from 0.05 to 3"), "--speed 9; must be from 0.05 to 3");
   EXPECT_EQ(InFlags("ReplayOptions.threads = -2; must be >= 0"), "--threads -2; must be >= 0");
   EXPECT_EQ(InFlags("HeightOptions.sill_m = 3, window_top_m = 2; must be 0 < sill_m < window_top_m <= storey_m"),
             "--sill-height 3, --window-top 2; must be 0 < --sill-height < --window-top <= --storey-height");
-  EXPECT_EQ(InFlags("DrawingFileOptions.scale_m = 2; must not be given besides unit = cm"), "--scale 2; must not be given besides --unit cm");
+  EXPECT_EQ(InFlags("DrawingFileOptions.scale_m = 2; must not be given besides unit = cm"),
+            "--scale 2; must not be given besides --unit cm");
   EXPECT_EQ(InFlags("RoomOptions.min_width_m = -1; must not be negative"), "RoomOptions.min_width_m = -1; must not be negative");
 }
 

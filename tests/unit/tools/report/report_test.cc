@@ -73,6 +73,14 @@ TEST(Report, IsOnePageThatNeedsNothingElse) {
   EXPECT_EQ(*html, *RunToHtml(house, MakeRun(house), MakeInfo()));
 }
 
+TEST(Report, MarksOnOneSpotShareALabel) {
+  const AGraph house = test::MakeHouse();
+  auto run = MakeRun(house);
+  EXPECT_THAT(*RunToHtml(house, run, MakeInfo()), AllOf(HasSubstr(">start</text>"), HasSubstr(">end</text>")));
+  run.online.erase(run.online.begin(), run.online.end() - 1);
+  EXPECT_THAT(*RunToHtml(house, run, MakeInfo()), AllOf(HasSubstr(">start</text>"), HasSubstr(">first fix, end</text>")));
+}
+
 TEST(Report, ShowsWhereARobotThatWasNotFoundCouldBe) {
   const AGraph house = test::MakeHouse();
   tools::Run run = MakeRun(house);

@@ -70,7 +70,7 @@ TEST(RunInfo, ReadsBackAsWritten) {
   info.plumb_version = "0.1.0";
   info.plan_path = "/a/b.agraph";
   info.plan_source = "b \"quoted\".ifc";
-  info.options = {{"tolerance", "0.02"}};
+  info.options = {{"tolerance", "0.02"}, {"room", "[\"5\"]"}, {"quiet", "false"}, {"near", ""}, {"updates", "\"\xe4\""}};
   info.time_to_localize_s = 4.25;
   info.scans = 1200;
   info.last_reason = "";
@@ -78,10 +78,14 @@ TEST(RunInfo, ReadsBackAsWritten) {
   const auto read = ParseRunInfo(RunInfoToJson(info), "run.json");
   ASSERT_TRUE(read) << read.error().message;
   EXPECT_EQ(RunInfoToJson(*read), RunInfoToJson(info));
+  EXPECT_THAT(RunInfoToJson(info),
+              HasSubstr("\"tolerance\": 0.02,\n  \"room\": [\n   \"5\"\n  ],\n  \"quiet\": false,\n  \"near\": null,"));
   EXPECT_EQ(read->plan_source, info.plan_source);
   EXPECT_EQ(read->time_to_localize_s, info.time_to_localize_s);
   EXPECT_EQ(read->matcher, "graph");
   EXPECT_FALSE(read->pace);
+  info.time_to_localize_s = 1051.8 - 1000;  // 51.799999999999955
+  EXPECT_THAT(RunInfoToJson(info), HasSubstr("\"time_to_localize_s\": 51.8,"));
   info.time_to_localize_s.reset();
   EXPECT_FALSE(ParseRunInfo(RunInfoToJson(info), "run.json")->time_to_localize_s.has_value());
 }

@@ -9,8 +9,8 @@
 
 namespace plumb::runtime {
 
-// Fills in num_points, observed_m2, span_m, seen_m and seen of `walls`, which are by wall id and hold every wall that `matches` see. Views that are
-// not of the wall they were matched to do not count. Frames as named; O(matches x surfaces of the plan).
+// Fills in num_points, observed_m2, span_m, seen_m and seen of `walls`, which are by wall id and hold every wall that `matches` see. Views
+// that are not of the wall they were matched to do not count. Frames as named; O(matches x surfaces of the plan).
 void CountSeen(const SGraph& map, const AGraph& plan, const std::vector<WallFrame>& frames, const std::vector<Match>& matches,
                const Eigen::Isometry3d& T_plan_map, std::vector<WallEstimate>& walls);
 

@@ -85,6 +85,18 @@ class PoseSearch {
     return LeadOver(plan, map, pose, others, options, Stride(map, kNearbyRays));
   }
 
+  // Candidate::lead_over_storeys.
+  [[nodiscard]] double LeadOverStoreys(const MapView& map, const PlanarPose& pose) const {
+    std::vector<PlanarPose> others;
+    const PlanLevel* const own = LevelAt(map, pose.z_m);
+    for (const PlanLevel& level : plan.levels()) {
+      if (&level == own) continue;
+      others.push_back(pose);
+      others.back().z_m += level.floor_z_m - own->floor_z_m;
+    }
+    return LeadOver(plan, map, pose, others, options, Stride(map, kNearbyRays), true);
+  }
+
   const PlanIndex plan;
   const MatcherOptions options;
 
@@ -111,12 +123,13 @@ class PoseSearch {
     candidate.rays = rays;
   }
 
-  [[nodiscard]] StoreyId StoreyAt(const MapView& map, double z_m) const {
+  // Whose floor is nearest to the map's. None: the plan has no rooms.
+  [[nodiscard]] const PlanLevel* LevelAt(const MapView& map, double z_m) const {
     const double floor_z_m = (map.floor_z_m ? *map.floor_z_m : map.sensor_z_m - 0.6) + z_m;
     const auto nearest = std::min_element(plan.levels().begin(), plan.levels().end(), [&](const PlanLevel& a, const PlanLevel& b) {
       return std::abs(a.floor_z_m - floor_z_m) < std::abs(b.floor_z_m - floor_z_m);
     });
-    return nearest == plan.levels().end() ? StoreyId() : nearest->storey;
+    return nearest == plan.levels().end() ? nullptr : &*nearest;
   }
 
   // The heights that a pose may have. Walls look alike at any height, so there is more than one without a floor or ceiling, and where the
@@ -145,7 +158,8 @@ class PoseSearch {
       c.rays = JudgeRays(plan, map, c.fit.pose, options, stride);
       if (best.fit.pairs.empty() || c.rays.log_likelihood > best.rays.log_likelihood) best = c;
     }
-    best.storey = StoreyAt(map, best.fit.pose.z_m);
+    const PlanLevel* const level = LevelAt(map, best.fit.pose.z_m);
+    best.storey = level != nullptr ? level->storey : StoreyId();
     return best;
   }
 
@@ -274,6 +288,7 @@ MatchResult Matcher::Match(const SGraph& map, const StartHint& hint) const {
   Candidate& best = finalists.front();
   if (!wrong.scaled) wrong.scaled = search.ScaledLikelihood(view, best);
   if (view.planar && !best.lead_nearby) best.lead_nearby = search.LeadNearby(view, best.fit.pose);
+  best.lead_over_storeys = search.LeadOverStoreys(view, best.fit.pose);
   wrong.mirrored = impl_->MirroredLikelihood(view, best.fit);
   return Decide(finalists, view, plan, search.options, wrong);
 }

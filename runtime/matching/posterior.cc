@@ -189,6 +189,11 @@ std::string PlaceDoubt(const Candidate& candidate) {
   return fmt::format("a place beside it fits better ({:+.1f} nats)", -*candidate.lead_nearby);
 }
 
+std::string StoreyDoubt(const Candidate& candidate, const MatcherOptions& options) {
+  if (!candidate.lead_over_storeys || *candidate.lead_over_storeys >= options.accept_margin_nats) return {};
+  return fmt::format("but for one wall, another storey fits about as well ({:+.1f} nats)", -*candidate.lead_over_storeys);
+}
+
 MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, const AGraph& plan, const MatcherOptions& options,
                    const WrongPlans& wrong) {
   MatchResult result;
@@ -219,6 +224,7 @@ MatchResult Decide(const std::vector<Candidate>& sorted, const MapView& map, con
   result.reason = Doubt(sorted.front(), best, required_planes, by_rays, map.planar ? std::nullopt : wrong.scaled, options);
   if (map.planar && result.reason.empty()) result.reason = SizeDoubt(sorted.front(), wrong.scaled, options);
   if (map.planar && result.reason.empty()) result.reason = PlaceDoubt(sorted.front());
+  if (result.reason.empty()) result.reason = StoreyDoubt(sorted.front(), options);
   if (!result.reason.empty()) {
     if (rivals > 0) result.reason += "; " + OthersAlike(rivals);
     return result;

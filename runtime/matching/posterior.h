@@ -19,6 +19,8 @@ struct Candidate {
   // By how much the rays prefer it to poses a little off it (LeadOver); none: not asked for yet, as its walls fix it or too few of them
   // agree.
   std::optional<double> lead_nearby;
+  // The same over the same place in the plan's other storeys; none: not asked for yet.
+  std::optional<double> lead_over_storeys;
 
   [[nodiscard]] double score() const { return rays.log_likelihood + log_prior; }
 };
@@ -76,5 +78,9 @@ struct RayVerdict {
 // Of a map of a planar laser, whose walls are half furniture: whether the rays prefer a place a little off once the wall that tells most is
 // left out. In a plan of another size one part of the map lies well here and the rest beside it. Empty if not asked for yet.
 [[nodiscard]] std::string PlaceDoubt(const Candidate& candidate);
+
+// Whether another storey, which often has the same walls, fits about as well but for one wall: that may be the one that deviates. Empty if
+// not asked for yet.
+[[nodiscard]] std::string StoreyDoubt(const Candidate& candidate, const MatcherOptions& options);
 
 }  // namespace plumb::runtime

@@ -179,20 +179,24 @@ RayEvidence JudgeRays(const PlanIndex& plan, const MapView& map, const PlanarPos
 }
 
 double LeadOver(const PlanIndex& plan, const MapView& map, const PlanarPose& pose, std::span<const PlanarPose> others,
-                const MatcherOptions& options, size_t stride) {
+                const MatcherOptions& options, size_t stride, bool either) {
   const Judgements here(Judge(plan, map, pose, options), map, stride);
   double least = std::numeric_limits<double>::infinity();
   for (const PlanarPose& other : others) {
     const Judgements there(Judge(plan, map, other, options), map, stride);
-    std::map<uint32_t, double> leads;  // by what the ray should have ended on
+    std::map<uint32_t, double> by_here, by_there;  // by what the ray should have ended on
+    double sum = 0;
     for (size_t i = 0; i < here.rays().size(); ++i) {
-      leads[OwnerOf(plan.plan(), here.rays()[i].triangle)] +=
-          here.LogLikelihood(here.rays()[i], options) - there.LogLikelihood(there.rays()[i], options);
-    }
-    double sum = 0, most = 0;
-    for (const auto& [owner, lead] : leads) {
+      const double lead = here.LogLikelihood(here.rays()[i], options) - there.LogLikelihood(there.rays()[i], options);
       sum += lead;
-      if (owner != kNoTriangle) most = std::max(most, lead);
+      by_here[OwnerOf(plan.plan(), here.rays()[i].triangle)] += lead;
+      if (either) by_there[OwnerOf(plan.plan(), there.rays()[i].triangle)] += lead;
+    }
+    double most = 0;
+    for (const auto* leads : {&by_here, &by_there}) {
+      for (const auto& [owner, lead] : *leads) {
+        if (owner != kNoTriangle) most = std::max(most, lead);
+      }
     }
     least = std::min(least, sum - most);
   }

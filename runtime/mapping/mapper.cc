@@ -11,7 +11,6 @@
 #include "runtime/mapping/planar_segmentation.h"
 #include "runtime/mapping/pose_graph.h"
 #include "runtime/mapping/segmentation.h"
-#include "runtime/mapping/surface_splitting.h"
 #include "runtime/mapping/view_alignment.h"
 #include "runtime/odometry/planar/planar_scan.h"
 
@@ -216,14 +215,10 @@ void Mapper::AddSegment(const Segment& segment, const Keyframe& keyframe) {
     return;
   }
   if (IsEcho(candidate.surface, candidate.track.patch, graph_.surfaces, tracks_, balls_)) return;
-  Append(std::move(candidate));
-}
-
-void Mapper::Append(TrackedSurface surface) {
-  surface.surface.id = static_cast<uint32_t>(graph_.surfaces.size());
-  graph_.surfaces.push_back(std::move(surface.surface));
-  balls_.push_back(surface.track.patch.ball());
-  tracks_.push_back(std::move(surface.track));
+  candidate.surface.id = static_cast<uint32_t>(graph_.surfaces.size());
+  graph_.surfaces.push_back(std::move(candidate.surface));
+  balls_.push_back(candidate.track.patch.ball());
+  tracks_.push_back(std::move(candidate.track));
 }
 
 void Mapper::AbsorbInto(size_t i, const TrackedSurface& other) {
@@ -243,16 +238,6 @@ void Mapper::Empty(size_t i) {
   SurfacePatch& patch = tracks_[i].patch;
   patch.Forget(std::vector<bool>(patch.cells().size(), true));
   balls_[i] = {};
-}
-
-void Mapper::SplitSurfaces() {
-  for (size_t i = 0; i < graph_.surfaces.size(); ++i) {
-    std::optional<TrackedSurface> part = SplitOff(graph_.keyframes, options_, &graph_.surfaces[i], &tracks_[i]);
-    if (!part) continue;
-    balls_[i] = tracks_[i].patch.ball();
-    Append(std::move(*part));
-    --i;  // what is left may part again
-  }
 }
 
 // The older of two surfaces stays; the younger keeps its slot, empty. `settled` as in OnPosesChanged().
@@ -299,7 +284,6 @@ void Mapper::OnPosesChanged(bool settled) {
   for (size_t i = 0; i < graph_.surfaces.size(); ++i) {
     if (!graph_.surfaces[i].observations.empty()) RecomputeSurface(i);
   }
-  if (!graph_.planar) SplitSurfaces();
   MergeDuplicates(settled && !graph_.planar);
   if (settled && !graph_.planar) DropEchoCells();
   if (graph_.keyframes.empty()) return;

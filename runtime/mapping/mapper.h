@@ -39,8 +39,7 @@ class Mapper {
   [[nodiscard]] const SGraph& graph() const { return graph_; }
   [[nodiscard]] SGraph& mutable_graph() { return graph_; }
 
-  // After keyframe poses in mutable_graph() were changed: recomputes surface planes and extents, parts what no longer lies on one plane,
-  // merges what now coincides,
+  // After keyframe poses in mutable_graph() were changed: recomputes surface planes and extents, merges what now coincides,
   // and takes T_map_odom from the newest keyframe. `settled`: the poses are those of the last solve, and nothing more is to be seen of what
   // was seen from one keyframe alone; then that is merged whatever its direction, and cells that are echoes are taken from their surfaces
   // for good. O(observations + surfaces^2).
@@ -52,13 +51,11 @@ class Mapper {
   [[nodiscard]] Eigen::Vector3d VelocitySinceLast(double stamp_s, const Eigen::Isometry3d& T_odom_lidar) const;
   [[nodiscard]] Smear SmearOf(double stamp_s, const Eigen::Isometry3d& T_odom_lidar) const;
   void AddSegment(const Segment& segment, const Keyframe& keyframe);
-  void Append(TrackedSurface surface);
   void AbsorbInto(size_t i, const TrackedSurface& other);
   void RecomputeSurface(size_t i);
   void Empty(size_t i);
   void ClosePlanarLoops(const KeyframeWindow& window);
   void CloseSpatialLoops();
-  void SplitSurfaces();
   void MergeDuplicates(bool settled = false);
   void DropEchoCells();
   void BoundKeyframes();

@@ -24,7 +24,6 @@ namespace {
 
 constexpr double kSettled = 0.01;      // priors that change less end the EM rounds
 constexpr double kNoThickness = 1e-3;  // of its prior: as good as none
-constexpr double kElsewhere_m = 0.03;  // between rounds: what the next solve does not come to by itself
 
 std::string CheckInput(const SGraph& map, const AGraph& plan, const std::vector<WallFrame>& frames, const std::vector<Match>& matches,
                        const JointOptions& options) {
@@ -83,14 +82,14 @@ class Optimizer {
     SeedHeight();
     Measure();
     if (schedule_.consensus) {
-      Reseed(0);
-      Reseed(0);  // the first correction may turn the plan, and measurements are linear in the turn
+      Reseed(true);
+      Reseed(true);  // the first correction may turn the plan, and measurements are linear in the turn
     }
     std::optional<JointProblem> problem(std::in_place, map_, plan_, frames_, matches_, fitted_, state_);
     const int rounds = schedule_.alternate ? options_.em_rounds : 1;
     for (int round = 0; round < rounds; ++round) {
       const JointState before = state_;
-      const bool moved = round > 0 && schedule_.consensus && Reseed(kElsewhere_m);
+      const bool moved = round > 0 && schedule_.consensus && Reseed(false);
       const double change = ExpectationStep(*problem);
       if (round > 1 && !moved && change < kSettled) break;  // a seed is no solution
       result.em_rounds = round + 1;
@@ -104,8 +103,6 @@ class Optimizer {
     }
     if (options_.covariances && options_.fit_tolerance && schedule_.consensus) {
       FitTolerance();
-      // Walls that are truer to the plan than the options allow tell apart places that were alike before.
-      if (Reseed(options_.coupling.offset_tau0_m)) FitTolerance();
       problem.reset();  // it holds the state
       problem.emplace(map_, plan_, frames_, matches_, fitted_, state_);
       ExpectationStep(*problem);
@@ -138,9 +135,9 @@ class Optimizer {
     JointOptions as_thick = options_;
     as_thick.thickness_sigma_m *= kNoThickness;
     const BuiltTolerance built = FitBuiltTolerance(measurements_, Measured(as_thick), responsibilities_, state_.bias_m, options_.coupling);
-    fitted_.thickness_sigma_m = built.offset_ratio * options_.thickness_sigma_m;
-    fitted_.coupling.offset_tau0_m = built.offset_ratio * options_.coupling.offset_tau0_m;
-    fitted_.coupling.yaw_tau0_rad = built.yaw_ratio * options_.coupling.yaw_tau0_rad;
+    fitted_.thickness_sigma_m *= built.offset_ratio;
+    fitted_.coupling.offset_tau0_m *= built.offset_ratio;
+    fitted_.coupling.yaw_tau0_rad *= built.yaw_ratio;
     Measure();
   }
 
@@ -149,12 +146,13 @@ class Optimizer {
   }
   void Measure() { measurements_ = Measured(fitted_); }
 
-  // Wall-level consensus on where the plan lies. True if that is `least_m` or more from where it lies now: else nothing changes.
-  bool Reseed(double least_m) {
-    const PlaceSeed seed = SeedPlace(measurements_, frames_, Place(), fitted_);
+  // Wall-level consensus on where the plan lies. Between rounds it only steps in when another place is clearly better: then true.
+  bool Reseed(bool always) {
+    const PlaceSeed seed = SeedPlace(measurements_, frames_, Place(), options_);
     const Eigen::Isometry3d moved = seed.T_plan_map * Place().inverse();
     const Eigen::Vector3d center = Place() * Eigen::Vector3d(state_.poses.back()[4], state_.poses.back()[5], state_.poses.back()[6]);
-    if ((moved * center - center).norm() < least_m) return false;
+    constexpr double kElsewhere_m = 0.03;
+    if (!always && (moved * center - center).norm() < kElsewhere_m) return false;
     state_.place = PlaceBlock(seed.T_plan_map);
     state_.bias_m = seed.bias_m;
     Measure();

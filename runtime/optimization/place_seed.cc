@@ -21,11 +21,8 @@ constexpr size_t kMaxProposers = 60, kMaxPolished = 12;
 constexpr double kDistinct_m = 0.02;
 constexpr double kKeepMargin_nats = 1.0;
 constexpr double kSamePlace_m = 0.05;
-constexpr double kLeastGain_nats = 1e-3;
 constexpr double kNoRival_nats = 7.0;  // less than a thousandth of the given place's probability moves no interval of 95 %
 constexpr std::array<double, 8> kToleranceSchedule_m{0.03, 0.02, 0.01, 0, 0, 0, 0, 0};
-constexpr std::array<double, 8> kAsItIs_m{};
-constexpr int kMostRefinements = 5;
 
 struct Row {
   Eigen::Vector2d e;
@@ -72,7 +69,7 @@ class Seeder {
         best_cost = cost;
       }
     }
-    return Refined(best);
+    return best;
   }
 
   std::vector<RivalPlace> Rivals() const {
@@ -150,18 +147,12 @@ class Seeder {
     return weights > 0 ? best - sum / weights : best;
   }
 
-  // The walls whose offsets are known best.
-  std::vector<size_t> Proposers() const {
+  // Best first, by truncated cost; no two closer than kDistinct_m.
+  std::vector<Correction> Proposals() const {
     std::vector<size_t> proposers(rows_.size());
     for (size_t i = 0; i < proposers.size(); ++i) proposers[i] = i;
     std::stable_sort(proposers.begin(), proposers.end(), [&](size_t a, size_t b) { return rows_[a].cov(0, 0) < rows_[b].cov(0, 0); });
     if (proposers.size() > kMaxProposers) proposers.resize(kMaxProposers);
-    return proposers;
-  }
-
-  // Best first, by truncated cost; no two closer than kDistinct_m.
-  std::vector<Correction> Proposals() const {
-    const std::vector<size_t> proposers = Proposers();
 
     std::vector<std::pair<double, Correction>> scored;
     for (const double yaw : {ConsensusYaw(), 0.0}) {
@@ -198,40 +189,10 @@ class Seeder {
     return {place, place, 1 / (kPlacePrior_rad * kPlacePrior_rad), 1 / (options_.bias_sigma_m * options_.bias_sigma_m)};
   }
 
-  // A tolerance that starts wide joins places that are nearer to each other than that, where walls deviate by little: none of them may be
-  // the best. So each wall in turn is put on its plan, near the place, with the tolerance as it is.
-  Correction Refined(Correction best) const {
-    double best_cost = Cost(best);
-    for (int i = 0; i < kMostRefinements; ++i) {
-      const Correction from = best;
-      for (const Correction& x : Nearby(from)) {
-        const double cost = Cost(x);
-        if (cost >= best_cost - kLeastGain_nats) continue;
-        best = x;
-        best_cost = cost;
-      }
-      if (best == from) break;
-    }
-    return best;
-  }
-
-  std::vector<Correction> Nearby(const Correction& from) const {
-    std::vector<Correction> out;
-    for (const size_t i : Proposers()) {
-      const Row& r = rows_[i];
-      const double off_m = r.At(from).x();
-      if (std::abs(off_m) > kSamePlace_m) continue;
-      Correction x = from;
-      x.head<2>() -= off_m * r.J.block<1, 2>(0, 0).transpose();
-      out.push_back(Polish(x, kAsItIs_m));
-    }
-    return out;
-  }
-
   // EM on the wall-level mixture; the tolerance of "as planned" starts wide enough for the bias and shrinks.
-  Correction Polish(Correction x, const std::array<double, 8>& extra_tolerance_m = kToleranceSchedule_m) const {
+  Correction Polish(Correction x) const {
     CouplingOptions mixture = options_.coupling;
-    for (const double extra : extra_tolerance_m) {
+    for (const double extra : kToleranceSchedule_m) {
       mixture.offset_tau0_m = std::min(std::hypot(options_.coupling.offset_tau0_m, extra), 0.5 * options_.coupling.offset_tau1_m);
       Eigen::Matrix4d lhs = PriorPrecision().asDiagonal();
       Eigen::Vector4d rhs = PriorPrecision().cwiseProduct(prior_);

@@ -15,8 +15,7 @@ struct PlaceSeed {
 
 // Every pair of non-parallel walls proposes a place in which both stand as planned; the best by truncated cost are polished by EM with a
 // shrinking tolerance, and the one with the least -log p under the deviation mixture wins. The given place is kept unless another is
-// better by a nat. From there each wall within 5 cm of its plan is put on it in turn, and what is better kept: of walls that deviate by
-// little, a tolerance that starts wide makes a compromise. One vote per physical wall. O(n^3) for n <= 60 walls, O(n) beyond.
+// better by a nat. One vote per physical wall. O(n^3) for n <= 60 walls, O(n) beyond.
 [[nodiscard]] PlaceSeed SeedPlace(const std::vector<WallMeasurement>& walls, const std::vector<WallFrame>& frames,
                                   const Eigen::Isometry3d& T_plan_map, const JointOptions& options);
 

@@ -18,7 +18,6 @@ constexpr double kMaxOff_rad = 0.07;       // floors and walls are level and plu
 constexpr double kWallSigma_rad = 0.01;    // what surfels of walls are off by, besides their points' noise, ...
 constexpr double kPatchSigma_rad = 0.03;   // ... those of floors, which a box's foot leans, ...
 constexpr double kLevelSigma_rad = 0.003;  // ... and whole floors
-constexpr double kAgreesSigmas = 3.0;
 constexpr double kMaxSigma_rad = 0.0087;
 constexpr size_t kMaxPaired = 16;  // walls any two of which say which way is up ...
 constexpr double kMinCross = 0.3;  // ... if the sine between them is this
@@ -107,50 +106,44 @@ std::vector<Eigen::Vector3d> Candidates(const Evidence& seen) {
 }
 
 // The candidate that most agrees with: a box before a wall leans a metre of it, or of the floor, by ten degrees.
-Upright Consensus(const Evidence& seen) {
+Eigen::Vector3d Consensus(const Evidence& seen) {
   Votes votes;
   for (const Surfel* s : seen.walls) votes.push_back(WallVote(*s, seen.expected, seen.noise_m2));
   for (const Surfels* levels : {&seen.floors, &seen.ceilings}) {
     for (const Surfel* s : *levels) votes.push_back(LevelVote(*s, kPatchSigma_rad, seen.noise_m2));
   }
-  Upright best{seen.expected, 0};
+  Eigen::Vector3d best = seen.expected;
   double least = std::numeric_limits<double>::infinity();
   for (const Eigen::Vector3d& up : Candidates(seen)) {
     double misfit = 0;  // Cauchy
-    int agreeing = 0;
-    for (const Eigen::Matrix3d& vote : votes) {
-      const double square = up.dot(vote * up);
-      misfit += std::log1p(square);
-      agreeing += square <= kAgreesSigmas * kAgreesSigmas;
-    }
+    for (const Eigen::Matrix3d& vote : votes) misfit += std::log1p(up.dot(vote * up));
     if (misfit >= least) continue;
     least = misfit;
-    best = {up, votes.empty() ? 0 : agreeing / static_cast<double>(votes.size())};
+    best = up;
   }
   return best;
 }
 
 }  // namespace
 
-std::optional<Upright> FindUp(const SurfelMap& map, const Eigen::Vector3d& expected, double max_tilt_rad) {
+std::optional<Eigen::Vector3d> FindUp(const SurfelMap& map, const Eigen::Vector3d& expected, double max_tilt_rad) {
   const Evidence seen = EvidenceOf(map, expected, max_tilt_rad);
-  Upright found = Consensus(seen);
+  Eigen::Vector3d up = Consensus(seen);
   Votes votes;
-  for (const Surfel* s : seen.walls) votes.push_back(WallVote(*s, found.up, seen.noise_m2));
+  for (const Surfel* s : seen.walls) votes.push_back(WallVote(*s, up, seen.noise_m2));
   for (const Surfels* levels : {&seen.floors, &seen.ceilings}) {
-    if (const std::optional<Surfel> level = LargestLevel(*levels, found.up))
-      votes.push_back(LevelVote(*level, kLevelSigma_rad, seen.noise_m2));
+    if (const std::optional<Surfel> level = LargestLevel(*levels, up)) votes.push_back(LevelVote(*level, kLevelSigma_rad, seen.noise_m2));
   }
   for (int round = 0; round < kRounds; ++round) {
     Eigen::Matrix3d cost = Eigen::Matrix3d::Zero();
-    for (const Eigen::Matrix3d& vote : votes) cost += vote / (1 + found.up.dot(vote * found.up));  // Cauchy
+    for (const Eigen::Matrix3d& vote : votes) cost += vote / (1 + up.dot(vote * up));  // Cauchy
     const SymmetricEigen<3> eigen = EigenOf(cost);
     if (!(eigen.values[1] >= 1 / (kMaxSigma_rad * kMaxSigma_rad))) return std::nullopt;
     const Eigen::Vector3d axis = eigen.vectors.col(0);
-    found.up = axis.dot(expected) < 0 ? Eigen::Vector3d(-axis) : axis;
+    up = axis.dot(expected) < 0 ? Eigen::Vector3d(-axis) : axis;
   }
-  if (found.up.dot(expected) < std::cos(max_tilt_rad)) return std::nullopt;
-  return found;
+  if (up.dot(expected) < std::cos(max_tilt_rad)) return std::nullopt;
+  return up;
 }
 
 Eigen::Matrix3d LevelingRotation(const Eigen::Vector3d& up) {

@@ -8,16 +8,11 @@
 
 namespace plumb::runtime {
 
-struct Upright {
-  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();  // unit, away from gravity, in the map's frame
-  double support = 0;                             // share of what might be floor, ceiling or wall that is level or plumb by it
-};
-
-// The direction within max_tilt_rad of `expected` that most of what is seen agrees with: floors and ceilings that are level by it, walls
-// that are plumb; then made as good as the largest floor and ceiling and all walls together have it (runtime/METHOD.md, Leveling). None:
-// they leave it uncertain by more than half a degree. Requires max_tilt_rad in (0, 0.7): beyond, a wall might be the floor. O(n^2) in
-// surfels of floors.
-[[nodiscard]] std::optional<Upright> FindUp(const SurfelMap& map, const Eigen::Vector3d& expected, double max_tilt_rad);
+// The unit vector away from gravity in the map's frame: the direction within max_tilt_rad of `expected` that most of what is seen agrees
+// with: floors and ceilings that are level by it, walls that are plumb; then made as good as the largest floor and ceiling and all walls
+// together have it (runtime/METHOD.md, Leveling). None: they leave it uncertain by more than half a degree. Requires max_tilt_rad in (0,
+// 0.7): beyond, a wall might be the floor. O(n^2) in surfels of floors.
+[[nodiscard]] std::optional<Eigen::Vector3d> FindUp(const SurfelMap& map, const Eigen::Vector3d& expected, double max_tilt_rad);
 
 // The rotation that turns `up` to the z axis and has no yaw.
 [[nodiscard]] Eigen::Matrix3d LevelingRotation(const Eigen::Vector3d& up);

@@ -20,10 +20,8 @@
 namespace plumb::runtime {
 namespace {
 
-constexpr double kMaxTilt_rad = 0.6109;    // the sensor starts this near to what is expected
-constexpr double kGivenTilt_rad = 0.1745;  // a given odometry that is upright is this near to what is seen
-constexpr double kLeastSupport = 0.5;      // of what is seen, for a given odometry's word against what is expected
-constexpr double kLevelingVoxel_m = 1.0;   // wide enough for two rings on the floor
+constexpr double kMaxTilt_rad = 0.6109;   // the sensor starts this near to what is expected
+constexpr double kLevelingVoxel_m = 1.0;  // wide enough for two rings on the floor
 constexpr int kMinFirstPoints = 200;
 constexpr int kMaxFailures = 10;     // in a row, scans without points not counted; then a new map begins at the predicted pose
 constexpr double kLeastShare = 0.4;  // of what the last scan found on the map, the next finds so much; less is another place
@@ -70,7 +68,8 @@ struct Odometry::Impl {
   }
 
   [[nodiscard]] PreparedScan Prepare(const Scan& scan);
-  [[nodiscard]] std::optional<Eigen::Vector3d> UpAtStart(const PreparedScan& prepared, const std::optional<GivenMotion>& given) const;
+  [[nodiscard]] std::optional<Eigen::Vector3d> UpAtStart(const PreparedScan& prepared) const;
+  [[nodiscard]] Eigen::Vector3d SupposedUp(const std::optional<GivenMotion>& given) const;
   void Start(const PreparedScan& prepared, const std::optional<GivenMotion>& given);
   [[nodiscard]] SweepPrior PriorAbout(const SweepGaussian& predicted, double stamp_s, double sweep_s, bool given) const;
   [[nodiscard]] RegistrationResult Align(const PreparedScan& prepared, const SweepPrior& prior, double gap_s) const;
@@ -129,24 +128,23 @@ PreparedScan Odometry::Impl::Prepare(const Scan& scan) {
   return prepared;
 }
 
-// In the lidar's frame. A given odometry may have any start frame: what it takes for up counts as far as floors and walls agree.
-std::optional<Eigen::Vector3d> Odometry::Impl::UpAtStart(const PreparedScan& prepared, const std::optional<GivenMotion>& given) const {
+// In the lidar's frame.
+std::optional<Eigen::Vector3d> Odometry::Impl::UpAtStart(const PreparedScan& prepared) const {
   SurfelMapOptions coarse = map.options();
   coarse.voxel_m = kLevelingVoxel_m;
   coarse.max_points = std::numeric_limits<double>::infinity();
   SurfelMap around(coarse);
   for (const Eigen::Vector3f& p : prepared.scan.points) around.Insert(p.cast<double>(), Eigen::Vector3d::Zero());
   around.EndScan();
+  return FindUp(around, options.up_in_lidar.normalized(), kMaxTilt_rad);
+}
+
+// Where nothing that is seen tells. A given odometry may have any start frame: it counts if it says about what is expected.
+Eigen::Vector3d Odometry::Impl::SupposedUp(const std::optional<GivenMotion>& given) const {
   const Eigen::Vector3d expected = options.up_in_lidar.normalized();
-  const std::optional<Upright> found = FindUp(around, expected, kMaxTilt_rad);
-  if (given) {
-    const Eigen::Vector3d told = given->T_start.linear().transpose() * Eigen::Vector3d::UnitZ();
-    const bool elsewhere = told.dot(expected) < std::cos(kMaxTilt_rad);
-    if (!found && !elsewhere) return told;
-    const std::optional<Upright> as_told = elsewhere ? FindUp(around, told, kGivenTilt_rad) : std::nullopt;
-    if (as_told && as_told->support >= std::max(kLeastSupport, found ? found->support : 0)) return as_told->up;
-  }
-  return found ? std::optional(found->up) : std::nullopt;
+  if (!given) return expected;
+  const Eigen::Vector3d told = given->T_start.linear().transpose() * Eigen::Vector3d::UnitZ();
+  return told.dot(expected) >= std::cos(kMaxTilt_rad) ? told : expected;
 }
 
 void Odometry::Impl::Start(const PreparedScan& prepared, const std::optional<GivenMotion>& given) {
@@ -155,8 +153,8 @@ void Odometry::Impl::Start(const PreparedScan& prepared, const std::optional<Giv
   last.stamp_s = prepared.scan.stamp_s;
   last.sweep_s = prepared.sweep_s;
   last.covariance.bottomRightCorner<6, 6>().diagonal() << Eigen::Vector3d::Constant(0.05 * 0.05), Eigen::Vector3d::Constant(0.1 * 0.1);
-  const std::optional<Eigen::Vector3d> up = UpAtStart(prepared, given);
-  motion.T_start.linear() = LevelingRotation(up.value_or(options.up_in_lidar.normalized()));
+  const std::optional<Eigen::Vector3d> up = UpAtStart(prepared);
+  motion.T_start.linear() = LevelingRotation(up ? *up : SupposedUp(given));
   if (up) {
     level.emplace(Eigen::Vector3d::UnitZ());
     last.covariance(11, 11) = 0;

@@ -4,7 +4,7 @@
 // assumed. The map keeps everything up to max_voxels: a robot that comes back is where it was. A scan that passes by the planes that it is
 // near, where those before it lay on them, is looked for anew about its prediction and left out if it fits nowhere: in the map, a misplaced
 // one would draw the next ones after it (runtime/METHOD.md, Misplaced scans). The first scan levels the frame
-// (leveling.h), helped by a given odometry that is upright. Recordings of a planar laser, told by their first scan, go through planar/planar_odometry.h instead, which takes the scan
+// (leveling.h). Recordings of a planar laser, told by their first scan, go through planar/planar_odometry.h instead, which takes the scan
 // plane as level.
 #pragma once
 

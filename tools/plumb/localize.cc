@@ -244,7 +244,7 @@ void AddLocalize(CLI::App& app, Session& session) {
       ->default_str("")
       ->allow_extra_args(false);
   sub->add_option("--mount", flags->mount_deg,
-                  "how the lidar sits on the robot, deg; needed where it is over 35 off upright and no upright odometry.tum tells")
+                  "how the lidar sits on the robot, deg; needed where it is over 35 off upright")
       ->type_name("ROLL,PITCH");
   sub->add_flag("--no-odometry", flags->no_odometry, "do without the recording's odometry.tum");
   sub->add_option("--start", flags->replay.start_s, "leave out this much of the recording at its beginning, s");

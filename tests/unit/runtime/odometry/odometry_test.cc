@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <functional>
 #include <limits>
 
@@ -211,19 +212,37 @@ TEST(Odometry, LevelsAnyMountThatIsTold) {
     options.up_in_lidar = (Eigen::AngleAxisd(0.2, y) * mount).transpose() * Eigen::Vector3d::UnitZ();  // roughly
     Odometry by_option(options);
     EXPECT_LT(Lean(by_option.Register(SweepFrom(mount), std::nullopt), mount), 0.006);
-
-    Odometry by_odometry;
-    Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-    T.linear() = Eigen::AngleAxisd(0.8, Eigen::Vector3d::UnitZ()) * mount;
-    EXPECT_LT(Lean(by_odometry.Register(SweepFrom(mount), Odometry::GivenMotion{T, T}), mount), 0.006);
   }
 }
 
-TEST(Odometry, AGivenOdometryThatIsNotUprightIsNotBelieved) {
-  Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
-  T.linear() = Eigen::AngleAxisd(0.9, Eigen::Vector3d(1, 1, 0).normalized()).toRotationMatrix();
-  Odometry odometry;
-  EXPECT_LT(Lean(odometry.Register(SweepFrom(Eigen::Matrix3d::Identity()), Odometry::GivenMotion{T, T}), Eigen::Matrix3d::Identity()), 0.006);
+TEST(Odometry, WhatIsSeenOutweighsAGivenOdometryOfAnyStartFrame) {
+  const Eigen::Matrix3d level = Eigen::Matrix3d::Identity();
+  for (const double turn_rad : {0.2, 0.9, M_PI / 2, M_PI}) {  // of optical frames, of frames whose z axis is down
+    for (const Eigen::Vector3d& axis : {Eigen::Vector3d(1, 0, 0), Eigen::Vector3d(1, 1, 0)}) {
+      Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+      T.linear() = Eigen::AngleAxisd(turn_rad, axis.normalized()).toRotationMatrix();
+      Odometry odometry;
+      EXPECT_LT(Lean(odometry.Register(SweepFrom(level), Odometry::GivenMotion{T, T}), level), 0.006) << turn_rad;
+    }
+  }
+}
+
+TEST(Odometry, AGivenOdometryTellsUpWhereNothingSeenDoes) {
+  Scan scan;  // a ball of points: no planes
+  std::mt19937_64 rng(1);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 4000; ++i) {
+    const Eigen::Vector3d p(normal(rng), normal(rng), normal(rng));
+    scan.points.push_back((p.normalized() * (2 + 0.5 * normal(rng))).cast<float>());
+  }
+  for (const double tilt_rad : {0.0, 0.3, 2.0}) {
+    Eigen::Isometry3d T = Eigen::Isometry3d::Identity();
+    T.linear() = Eigen::AngleAxisd(tilt_rad, Eigen::Vector3d::UnitX()).toRotationMatrix();
+    Odometry odometry;
+    const OdometryResult r = odometry.Register(scan, Odometry::GivenMotion{T, T});
+    ASSERT_TRUE(r.ok);
+    EXPECT_LT(Lean(r, tilt_rad < 1 ? Eigen::Matrix3d(T.linear()) : Eigen::Matrix3d(Eigen::Matrix3d::Identity())), 1e-6) << tilt_rad;
+  }
 }
 
 TEST(Odometry, DeskewedPointsLieOnTheHouse) {

@@ -20,6 +20,7 @@
 #include "runtime/localizer/localizer.h"
 #include "runtime/localizer/stopwatch.h"
 #include "schema/agraph_reader.h"
+#include "tools/run/memory.h"
 #include "tools/simulate/as_built.h"
 #include "tools/simulate/reach.h"
 #include "tools/simulate/sweep.h"
@@ -158,6 +159,7 @@ int Localize(const AGraph& plan, double period_s, int in) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  tools::ReturnLargeBlocks();  // as the program does
   const double minutes = argc > 2 ? std::atof(argv[2]) : 60;
   const double period_s = 1 / (argc > 3 ? std::atof(argv[3]) : 10);
   if (argc < 2 || !(minutes > 0) || !(period_s >= 0.1 && period_s <= 1)) {

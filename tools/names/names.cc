@@ -77,6 +77,7 @@ std::string Folded(std::string_view utf8) { return Fold(utf8, false); }
 std::string FoldedGerman(std::string_view utf8) { return Fold(utf8, true); }
 
 bool IsSameName(std::string_view a, std::string_view b) {
+  if (Folded(a).empty()) return a == b;  // "-" is not " "
   return Folded(a) == Folded(b) || Folded(a) == FoldedGerman(b) || FoldedGerman(a) == Folded(b);
 }
 

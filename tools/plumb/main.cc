@@ -14,6 +14,7 @@
 #include "tools/plumb/command.h"
 #include "tools/plumb/config.h"
 #include "tools/plumb/second_program.h"
+#include "tools/run/memory.h"
 #include "tools/plumb/usage_errors.h"
 
 namespace plumb::tools {
@@ -95,6 +96,9 @@ int main(int argc, char** argv) {
     if (argc > 2) argv[2] = help;
   }
   std::signal(SIGUSR1, SIG_IGN);  // a request for a report (interrupt.h) that comes early must not end what it asks about
+#ifdef PLUMB_SECOND_PROGRAM
+  plumb::tools::ReturnLargeBlocks();
+#endif
   plumb::tools::Session session;
   try {
 #ifndef PLUMB_SECOND_PROGRAM

@@ -40,7 +40,9 @@ Expected<OutputFolder> OutputFolder::Make(const std::string& path) {
   out.made_.assign(missing.rbegin(), missing.rend());
   fs::create_directories(folder, error);
   if (error) return Fail(ErrorCode::kFileUnwritable, fmt::format("cannot make `{}`: {}", path, error.message()));
-  const std::string probe = (folder / ".writable").string();
+  std::string probe;
+  for (int i = 0; probe.empty() || fs::exists(fs::symlink_status(probe, error)); ++i)
+    probe = (folder / fmt::format(".plumb-writable-{}", i)).string();  // never a file of the user's
   if (auto written = WriteFileAtomically(probe, std::string_view()); !written) return tl::unexpected(written.error());
   fs::remove(probe, error);
   return out;

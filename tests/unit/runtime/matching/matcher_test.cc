@@ -211,30 +211,50 @@ TEST(Matcher, KnowsACorridorByItsEnd) {
   EXPECT_LT(result.hypotheses.front().sigma_xy_m, 0.1);
 }
 
-TEST(Matcher, IsAmbiguousBetweenTwoStoreysThatAreAlike) {
-  AGraph tower = test::MakeHouse();
-  const AGraph above = tower;
-  constexpr double kUp_m = 2.8;
-  tower.storeys.push_back({"storey-1", "First floor", kUp_m, 2.6});
+// Two houses as the storeys of one.
+AGraph Tower(AGraph tower, const AGraph& above, double up_m) {
+  tower.storeys.push_back({"storey-1", "First floor", up_m, 2.6});
   for (Surface s : above.surfaces) {
     s.storey = StoreyId(1);
-    s.z_min_m += kUp_m;
-    s.z_max_m += kUp_m;
+    s.z_min_m += up_m;
+    s.z_max_m += up_m;
     tower.surfaces.push_back(s);
   }
   for (Room r : above.rooms) {
     r.storey = StoreyId(1);
-    r.floor_z_m += kUp_m;
-    r.ceiling_z_m += kUp_m;
+    r.floor_z_m += up_m;
+    r.ceiling_z_m += up_m;
     tower.rooms.push_back(r);
   }
   const auto base = static_cast<uint32_t>(tower.mesh.vertices.size());
-  for (Eigen::Vector3f v : above.mesh.vertices) tower.mesh.vertices.push_back(v + Eigen::Vector3f(0, 0, static_cast<float>(kUp_m)));
+  for (Eigen::Vector3f v : above.mesh.vertices) tower.mesh.vertices.push_back(v + Eigen::Vector3f(0, 0, static_cast<float>(up_m)));
   for (Triangle t : above.mesh.triangles) tower.mesh.triangles.push_back({base + t.a, base + t.b, base + t.c, t.element});
+  return tower;
+}
+
+TEST(Matcher, IsAmbiguousBetweenTwoStoreysThatAreAlike) {
+  constexpr double kUp_m = 2.8;
+  const AGraph tower = Tower(test::MakeHouse(), test::MakeHouse(), kUp_m);
   const MatchResult result = Matcher(tower).Match(MakeSyntheticMap(test::MakeHouse(), OnTour(test::kWholeHouse, UprightPose(10, 0, 0, 0))));
   ASSERT_EQ(result.verdict, Verdict::kAmbiguous) << result.reason;
   EXPECT_NE(result.hypotheses[0].storey, result.hypotheses[1].storey);
   EXPECT_NEAR(std::abs(result.hypotheses[0].T_plan_map.translation().z() - result.hypotheses[1].T_plan_map.translation().z()), kUp_m, 1e-6);
+}
+
+TEST(Matcher, OneWallDoesNotTellStoreysApart) {
+  AGraph built = test::MakeHouse(), other = test::MakeHouse();
+  test::DeviateWall(other, WallId(4), 0.35, 0);
+  const AGraph tower = Tower(test::MakeHouse(), other, 2.8);
+  const auto match = [&](const AGraph& below) {
+    return Matcher(tower).Match(MakeSyntheticMap(below, OnTour(test::kWholeHouse, UprightPose(10, 0, 0, 0))));
+  };
+  test::DeviateWall(built, WallId(4), 0.35, 0);  // on the ground floor: now it looks like the first
+  const MatchResult result = match(built);
+  ASSERT_GE(result.hypotheses.size(), 2u);
+  EXPECT_EQ(result.hypotheses[0].storey, StoreyId(1));
+  EXPECT_GT(result.hypotheses[0].log_likelihood - result.hypotheses[1].log_likelihood, MatcherOptions().accept_margin_nats);
+  EXPECT_NE(result.verdict, Verdict::kUnique);
+  EXPECT_NE(result.reason.find("storey"), std::string::npos) << result.reason;
 }
 
 TEST(Matcher, NeverIsUniqueBetweenTwoParallelWalls) {

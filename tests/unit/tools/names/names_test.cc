@@ -20,6 +20,8 @@ TEST(IsSameName, TakesUmlautsEitherWay) {
   for (const char* typed : {"K\u00fcche", "kueche", "KUCHE", "ku\u0308che"}) EXPECT_TRUE(IsSameName(typed, "K\u00fcche")) << typed;
   EXPECT_TRUE(IsSameName("Blaue", "blaue")) << "no umlaut at all";
   EXPECT_FALSE(IsSameName("Koche", "K\u00fcche"));
+  EXPECT_FALSE(IsSameName("-", " "));
+  EXPECT_TRUE(IsSameName("-", "-"));
 }
 
 TEST(IsPartOfName, IsOfWholeWords) {

@@ -52,7 +52,7 @@ Status RunEvaluate(EvaluateFlags flags, Session& session) {
   if (const std::string wrong = flags.options.Check(); !wrong.empty()) return session.Fail({ErrorCode::kBadOption, InFlags(wrong)});
   const auto fit = CheckInputs({{flags.run, InputKind::kRun}, {flags.truth, InputKind::kRecording}});
   if (!fit) return session.Fail(fit.error());
-  if (const auto apart = CheckOutputs({{"--json", flags.json}}, {}); !apart) return session.Fail(apart.error());
+  if (const auto apart = CheckOutputs({{"--json", flags.json}}, {flags.run, flags.truth}); !apart) return session.Fail(apart.error());
   const auto run = ReadRun(flags.run);
   if (!run) return session.Fail(run.error());
   const auto truth = ReadTruth(flags.truth);

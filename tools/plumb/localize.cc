@@ -200,6 +200,8 @@ Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
   const auto recording = runtime::Recording::Open(flags.recording);
   if (!recording) return session.Fail(recording.error());
   if (const std::string wrong = CheckAgainst(*recording, flags); !wrong.empty()) return session.Fail({ErrorCode::kBadOption, wrong});
+  if (const auto apart = CheckOutputs({{"--updates", flags.updates}}, {flags.plan, flags.recording}); !apart)
+    return session.Fail(apart.error());
   const auto output = OutputFolder::Make(flags.output);  // before hours of work: can the results be written?
   if (!output) return session.Fail(output.error());
 

@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <string_view>
 #include <system_error>
 
@@ -11,6 +13,23 @@
 namespace plumb::tools {
 
 namespace fs = std::filesystem;
+
+namespace {
+
+// Whether it is the input, or of an input that is a folder one of the files that recordings and runs consist of.
+bool IsOf(const fs::path& output, const fs::path& input) {
+  constexpr const char* kNames[] = {
+      "odometry.tum", "truth.tum",       "truth.json", "run.json",    "trajectory.tum", "trajectory_smoothed.tum",
+      "verdicts.csv", "hypotheses.json", "timing.csv", "sgraph.json", "map.ply",        "deviations.json"};
+  std::error_code error;
+  if (fs::equivalent(output, input, error)) return true;
+  if (!fs::is_directory(input, error)) return false;
+  const fs::path folder = output.has_parent_path() ? output.parent_path() : fs::path(".");
+  if (fs::equivalent(folder, input / "scans", error)) return true;
+  return std::any_of(std::begin(kNames), std::end(kNames), [&](const char* name) { return fs::equivalent(output, input / name, error); });
+}
+
+}  // namespace
 
 Expected<void> CheckOutputs(const std::vector<OutputFlag>& outputs, const std::vector<std::string>& inputs) {
   for (const OutputFlag& output : outputs) {
@@ -22,9 +41,9 @@ Expected<void> CheckOutputs(const std::vector<OutputFlag>& outputs, const std::v
     if (!folder.empty() && !fs::is_directory(folder, ignored))
       return Fail(ErrorCode::kFileUnwritable, fmt::format("{} {}; there is no folder `{}`", output.flag, output.path, folder.string()));
     for (const std::string& input : inputs) {
-      std::error_code error;
-      if (fs::equivalent(output.path, input, error))
-        return Fail(ErrorCode::kBadOption, fmt::format("{} {}; must not be `{}` itself, which is read", output.flag, output.path, input));
+      if (IsOf(output.path, input))
+        return Fail(ErrorCode::kBadOption,
+                    fmt::format("{} {}; must not be `{}` itself or a file of it, which is read", output.flag, output.path, input));
     }
   }
   return {};

@@ -13,7 +13,8 @@ struct OutputFlag {
   std::string flag, path;  // "--output", what it names; empty: not given
 };
 
-// Errors: kBadOption, if an output is one of the inputs, by whatever path; kFileUnwritable, if it is a folder or lies in none: said before
+// Errors: kBadOption, if an output is one of the inputs or, of inputs that are folders, a file that recordings or runs have there, by
+// whatever path; kFileUnwritable, if it is a folder or lies in none: said before
 // any work is done.
 [[nodiscard]] Expected<void> CheckOutputs(const std::vector<OutputFlag>& outputs, const std::vector<std::string>& inputs);
 

@@ -21,12 +21,14 @@ struct ReportFlags {
 
 Status RunReport(const ReportFlags& flags, Session& session) {
   if (const auto fits = CheckInputs({{flags.run, InputKind::kRun}}); !fits) return session.Fail(fits.error());
-  if (const auto apart = CheckOutputs({{"--output", flags.output}}, {}); !apart) return session.Fail(apart.error());
+  if (const auto apart = CheckOutputs({{"--output", flags.output}}, {flags.run}); !apart) return session.Fail(apart.error());
   const auto info = ReadRunInfo(flags.run);
   if (!info) return session.Fail(info.error());
   const auto run = ReadRun(flags.run);
   if (!run) return session.Fail(run.error());
   const std::string plan_path = flags.plan.empty() ? info->plan_path : flags.plan;
+  const auto apart = CheckOutputs({{"--output", flags.output}}, {plan_path, info->recording_path});
+  if (!apart) return session.Fail(apart.error());
   const auto plan = ReadAGraphFile(plan_path);
   if (!plan && flags.plan.empty() && plan.error().code == ErrorCode::kFileNotFound) {
     return session.Fail({plan.error().code, fmt::format("`{}`, which run.json names as the run's plan, is not there any more: --plan "

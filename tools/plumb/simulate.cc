@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "schema/agraph_reader.h"
+#include "schema/files.h"
 #include "schema/counted.h"
 #include "tools/inspect/storeys.h"
 #include "tools/plumb/command.h"
@@ -87,10 +88,12 @@ Expected<SimulateOptions> OptionsOf(const SimulateFlags& flags) {
   return options;
 }
 
-// Scans, whatever their names, or an odometry, without the truth that simulations write.
+// Scans, whatever their names, or an odometry, without the truth that simulations write: the seed is in it, or that it is incomplete.
 bool HoldsARecordingOfOthers(const std::filesystem::path& folder) {
   std::error_code error;
-  if (std::filesystem::exists(folder / "truth.json", error)) return false;
+  const auto truth = ReadFileText((folder / "truth.json").string());
+  if (truth && (truth->find("\"seed\"") != std::string::npos || truth->find("\"incomplete\"") != std::string::npos)) return false;
+  if (truth) return true;
   if (std::filesystem::exists(folder / "odometry.tum", error)) return true;
   for (std::filesystem::directory_iterator it(folder / "scans", error), end; !error && it != end; it.increment(error)) {
     if (it->path().extension() == ".pcd") return true;
@@ -104,7 +107,7 @@ Status RunSimulate(const SimulateFlags& flags, Session& session) {
   if (!flags.force && HoldsARecordingOfOthers(flags.output)) {
     return session.Fail(
         {ErrorCode::kBadOption,
-         fmt::format("`{}` holds a recording that no simulation wrote (it has no truth.json); --force replaces it", flags.output)});
+         fmt::format("`{}` holds a recording that no simulation wrote; --force replaces it", flags.output)});
   }
   if (const auto fits = CheckInputs({{flags.plan, InputKind::kAGraph}}); !fits) return session.Fail(fits.error());
   const auto plan = ReadAGraphFile(flags.plan);

@@ -22,6 +22,17 @@ TEST(CheckOutputs, RefusesWhatIsReadByWhateverPath) {
   EXPECT_TRUE(CheckOutputs({{"--output", other}, {"--svg", ""}}, {plan}));
 }
 
+TEST(CheckOutputs, RefusesFilesOfRecordingsAndRunsThatAreRead) {
+  const test::TemporaryFolder folder;
+  std::filesystem::create_directories(folder / "rec/scans");
+  for (const char* name : {"rec/truth.json", "rec/odometry.tum", "rec/notes.txt", "rec/scans/1.pcd"})
+    ASSERT_TRUE(WriteFileAtomically(folder / name, std::string_view("mine")));
+  for (const char* name : {"rec/truth.json", "rec/scans/../odometry.tum", "rec/scans/1.pcd", "rec/scans/new.json"})
+    EXPECT_FALSE(CheckOutputs({{"--json", folder / name}}, {folder / "rec"})) << name;
+  for (const char* name : {"rec/notes.txt", "rec/evaluation.json", "truth.json"})
+    EXPECT_TRUE(CheckOutputs({{"--json", folder / name}}, {folder / "rec"})) << name;
+}
+
 TEST(CheckOutputs, RefusesFoldersAndFilesInNone) {
   const test::TemporaryFolder folder;
   EXPECT_FALSE(CheckOutputs({{"--output", folder.path()}}, {}));

@@ -200,10 +200,10 @@ Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
   const auto recording = runtime::Recording::Open(flags.recording);
   if (!recording) return session.Fail(recording.error());
   if (const std::string wrong = CheckAgainst(*recording, flags); !wrong.empty()) return session.Fail({ErrorCode::kBadOption, wrong});
-  if (const auto apart = CheckOutputs({{"--updates", flags.updates}}, {flags.plan, flags.recording}); !apart)
-    return session.Fail(apart.error());
   const auto output = OutputFolder::Make(flags.output);  // before hours of work: can the results be written?
   if (!output) return session.Fail(output.error());
+  const auto apart = CheckOutputs({{"--updates", flags.updates}}, {flags.plan, flags.recording});
+  if (!apart) return session.Fail(apart.error());
 
   UpdateWriter updates(*plan, flags.updates, (fs::path(flags.output) / "deviations.json").string());
   if (const auto ready = updates.Open(); !ready) return session.Fail(ready.error());

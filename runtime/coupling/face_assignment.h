@@ -13,8 +13,7 @@ namespace plumb::runtime {
 using IsSeenThroughBy = std::function<bool(const Patch&, SurfaceId)>;
 
 // `candidates` per patch. What is left of them, the best first; none: the patch is of no wall. Lines that compete for a side are decided by
-// the least sum of costs; one that hides another, and one that is seen through, pay for it,
-// unless they are taken for a wall of glass.
+// the least sum of costs; one that hides another, and one that is seen through, pay for it, unless they are taken for a wall of glass.
 [[nodiscard]] AssignedFaces AssignFaces(const std::vector<Patch>& patches, AssignedFaces candidates, const IsSeenThroughBy& is_seen_through,
                                         const CouplingOptions& options);
 

@@ -32,8 +32,8 @@ struct RayModel {
                                     size_t stride = 1);
 
 // By how much `pose` is better than the best of `others`, in nats, each time without what the rays that should end on one wall say, of all
-// walls that which says most: a wall that deviates must not decide alone. `either`: on a wall that they should end on from `pose` or from the
-// other, as in another storey, where other walls stand. Infinite without others. Thread-safe.
+// walls that which says most: a wall that deviates must not decide alone. `either`: on a wall that they should end on from `pose` or from
+// the other, as in another storey, where other walls stand. Infinite without others. Thread-safe.
 [[nodiscard]] double LeadOver(const PlanIndex& plan, const MapView& map, const PlanarPose& pose, std::span<const PlanarPose> others,
                               const MatcherOptions& options, size_t stride = 1, bool either = false);
 

@@ -105,7 +105,7 @@ std::vector<Eigen::Vector3d> Candidates(const Evidence& seen) {
   return out;
 }
 
-// The candidate that most agrees with: a box before a wall leans a metre of it, or of the floor, by ten degrees.
+// The candidate that most of what is seen agrees with: a box before a wall leans a metre of it, or of the floor, by ten degrees.
 Eigen::Vector3d Consensus(const Evidence& seen) {
   Votes votes;
   for (const Surfel* s : seen.walls) votes.push_back(WallVote(*s, seen.expected, seen.noise_m2));

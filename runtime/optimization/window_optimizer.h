@@ -1,5 +1,5 @@
 // The poses of the newest keyframes in the map as it stands: what a solve over everything would make of them, at a cost that does not grow
-// with the map (runtime/METHOD.md, window).
+// with the map (runtime/README.md).
 #pragma once
 
 #include <Eigen/Geometry>

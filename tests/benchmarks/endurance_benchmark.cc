@@ -20,7 +20,7 @@
 #include "runtime/localizer/localizer.h"
 #include "runtime/localizer/stopwatch.h"
 #include "schema/agraph_reader.h"
-#include "tools/run/memory.h"
+#include "tools/plumb/memory.h"
 #include "tools/simulate/as_built.h"
 #include "tools/simulate/reach.h"
 #include "tools/simulate/sweep.h"

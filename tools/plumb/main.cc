@@ -13,8 +13,8 @@
 
 #include "tools/plumb/command.h"
 #include "tools/plumb/config.h"
+#include "tools/plumb/memory.h"
 #include "tools/plumb/second_program.h"
-#include "tools/run/memory.h"
 #include "tools/plumb/usage_errors.h"
 
 namespace plumb::tools {

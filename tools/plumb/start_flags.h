@@ -16,8 +16,8 @@ namespace plumb::tools {
 [[nodiscard]] Expected<runtime::StartHint> ParseStartHint(const std::string& near, const std::vector<std::string>& rooms,
                                                           const AGraph& plan);
 
-// `mount`: "ROLL,PITCH" of the lidar on the robot in degrees, first about x, then about the robot's y; may be empty. The direction away from
-// gravity in the lidar's frame. Errors: kBadOption (not numbers).
+// `mount`: "ROLL,PITCH" of the lidar on the robot in degrees, first about x, then about the robot's y; may be empty: upright. The unit
+// vector away from gravity in the lidar's frame. Errors: kBadOption (not numbers).
 [[nodiscard]] Expected<Eigen::Vector3d> ParseMount(const std::string& mount);
 
 }  // namespace plumb::tools

@@ -66,7 +66,8 @@ double StampOf(const SimulateOptions& options, const SensorModel& sensor, size_t
 // Takes and writes all sweeps. Each has a random stream of its own, so the threads' order does not matter.
 class Recorder {
  public:
-  Recorder(const AGraph& plan, StoreyId storey, const AsBuilt& built, const Drive& drive, const SensorModel& sensor, const SimulateOptions& options)
+  Recorder(const AGraph& plan, StoreyId storey, const AsBuilt& built, const Drive& drive, const SensorModel& sensor,
+           const SimulateOptions& options)
       : plan_(plan), counter_(plan, built), drive_(drive), lidar_(built.house, sensor, options.glass_transmission), options_(options),
         house_(built.house), origin_(plan.origin), surface_points_(plan.surfaces.size(), 0), surface_scans_(plan.surfaces.size(), 0) {
     const std::vector<WallBody> bodies = FindWallBodies(plan);

@@ -22,6 +22,7 @@ namespace {
 
 constexpr double kMaxTilt_rad = 0.6109;   // the sensor starts this near to what is expected
 constexpr double kLevelingVoxel_m = 1.0;  // wide enough for two rings on the floor
+constexpr int kLevelingTries = 20;        // scans after the first: while the map is small
 constexpr int kMinFirstPoints = 200;
 constexpr int kMaxFailures = 10;     // in a row, scans without points not counted; then a new map begins at the predicted pose
 constexpr double kLeastShare = 0.4;  // of what the last scan found on the map, the next finds so much; less is another place
@@ -35,6 +36,7 @@ constexpr double kMaxGivenSpeed_mps = 30.0;  // beyond, the given odometry has j
 constexpr double kPlanarSpacing_m = 0.04;    // of a planar laser's few points
 constexpr double kScanPoints = 4000;         // of a thinned scan: in a small room tilt and height rest on how many lie on it
 constexpr double kFinest = 0.3;              // of scan_spacing_m
+constexpr double kMeanDepth_m = 0.1;         // of the returns that become one point of it
 constexpr double kBootstrapSpeed_mps = 0.03, kBootstrapTurn_radps = 0.03;
 
 }  // namespace
@@ -79,7 +81,7 @@ struct Odometry::Impl {
   void RestartWithVelocity(const PreparedScan& second, const SweepPrior& prior, RegistrationResult* aligned);
   void Insert(const PreparedScan& prepared, const SweepMotion& motion);
   void Advance(const PreparedScan& prepared, const RegistrationResult& aligned, const std::optional<GivenMotion>& given);
-  [[nodiscard]] std::optional<Eigen::Vector3d> up() const { return level ? std::optional(level->up()) : std::nullopt; }
+  void LearnLevel(const RegistrationResult& aligned);
   void LearnPredictionError(const SweepMotion& predicted, const SweepMotion& actual);
 
   OdometryOptions options;
@@ -88,8 +90,10 @@ struct Odometry::Impl {
   std::optional<PreparedScan> first;  // until the second scan tells how fast the first one moved
   bool started = false;
   double spacing_m = options.scan_spacing_m;  // that the next scan is thinned to
-  // If the first scan told which way is up; else z of the odometry's frame is the sensor's own axis, which may lie.
-  std::optional<LevelMotion> level;
+  // If the first scan does not show which way is up, z of the odometry's frame is what was told, and what is level, too, until a scan does.
+  LevelMotion level{Eigen::Vector3d::UnitZ()};
+  bool leveled = false;
+  int leveling_tries = 0;
   int failures = 0;  // in a row: nothing says where the robot went meanwhile
   int misfits = 0;   // of these, scans with enough points: the map is not of this place
   EstimatedSweep last;
@@ -120,11 +124,11 @@ void Odometry::Impl::Insert(const PreparedScan& prepared, const SweepMotion& at)
 
 // What keeps about kScanPoints, judged by the scan before.
 PreparedScan Odometry::Impl::Prepare(const Scan& scan) {
-  PreparedScan prepared = PrepareScan(scan, spacing_m, options.min_range_m, options.max_range_m);
+  PreparedScan prepared = PrepareScan(scan, spacing_m, options.min_range_m, options.max_range_m, kMeanDepth_m);
   if (prepared.points.size() < kMinFirstPoints) return prepared;
   const double used_m = spacing_m, ratio = static_cast<double>(prepared.points.size()) / kScanPoints;
   spacing_m = std::clamp(used_m * std::sqrt(ratio), kFinest * options.scan_spacing_m, options.scan_spacing_m);
-  if (!started && spacing_m < used_m) prepared = PrepareScan(scan, spacing_m, options.min_range_m, options.max_range_m);
+  if (!started && spacing_m < used_m) prepared = PrepareScan(scan, spacing_m, options.min_range_m, options.max_range_m, kMeanDepth_m);
   return prepared;
 }
 
@@ -155,10 +159,8 @@ void Odometry::Impl::Start(const PreparedScan& prepared, const std::optional<Giv
   last.covariance.bottomRightCorner<6, 6>().diagonal() << Eigen::Vector3d::Constant(0.05 * 0.05), Eigen::Vector3d::Constant(0.1 * 0.1);
   const std::optional<Eigen::Vector3d> up = UpAtStart(prepared);
   motion.T_start.linear() = LevelingRotation(up ? *up : SupposedUp(given));
-  if (up) {
-    level.emplace(Eigen::Vector3d::UnitZ());
-    last.covariance(11, 11) = 0;
-  }
+  leveled = up.has_value();
+  if (leveled) last.covariance(11, 11) = 0;
   motion.T_end = motion.T_start;
   if (given && prepared.sweep_s > 0) {
     motion.T_end = motion.T_start * given->T_start.inverse() * given->T_end;
@@ -172,9 +174,9 @@ void Odometry::Impl::Start(const PreparedScan& prepared, const std::optional<Giv
 
 SweepPrior Odometry::Impl::PriorAbout(const SweepGaussian& predicted, double stamp_s, double sweep_s, bool given) const {
   SweepPrior prior{predicted, std::nullopt, Eigen::Vector3d::UnitZ()};
-  if (!level || given) return prior;
-  prior.level = level->Restrict(predicted, last, stamp_s, sweep_s);
-  prior.up = level->up();
+  if (given) return prior;
+  prior.level = level.Restrict(predicted, last, stamp_s, sweep_s);
+  prior.up = level.up();
   return prior;
 }
 
@@ -228,10 +230,10 @@ void Odometry::Impl::RestartWithVelocity(const PreparedScan& second, const Sweep
   const Twist measured = TwistBetween(aligned->motion.T_start, aligned->motion.T_end, second.sweep_s);
   if (measured.v_mps.norm() < kBootstrapSpeed_mps && measured.w_radps.norm() < kBootstrapTurn_radps) return;
   last.twist = measured;
-  last.motion.T_end = Advanced(last.motion.T_start, last.twist, last.sweep_s, up());
+  last.motion.T_end = Advanced(last.motion.T_start, last.twist, last.sweep_s, level.up());
   SweepGaussian better = prior;
-  better.mean.T_start = Advanced(last.motion.T_start, last.twist, second.scan.stamp_s - last.stamp_s, up());
-  better.mean.T_end = Advanced(better.mean.T_start, last.twist, second.sweep_s, up());
+  better.mean.T_start = Advanced(last.motion.T_start, last.twist, second.scan.stamp_s - last.stamp_s, level.up());
+  better.mean.T_end = Advanced(better.mean.T_start, last.twist, second.sweep_s, level.up());
   map = SurfelMap(map.options());
   Insert(*first, last.motion);
   const RegistrationResult again = Align(second, PriorAbout(better, second.scan.stamp_s, second.sweep_s, last.given.has_value()), 0);
@@ -258,6 +260,17 @@ RegistrationResult Odometry::Impl::Fitted(const PreparedScan& prepared, const Sw
   found_share = found;
   usual_ratio += (usual_ratio > 0 ? kRatioMemory : 1) * (aligned.inlier_ratio - usual_ratio);
   return aligned;
+}
+
+// Which way is up, if the first scan did not show it, the map may show soon.
+void Odometry::Impl::LearnLevel(const RegistrationResult& aligned) {
+  if (!leveled && leveling_tries < kLevelingTries) {
+    ++leveling_tries;
+    const std::optional<Eigen::Vector3d> up = FindUp(map, Eigen::Vector3d::UnitZ(), kMaxTilt_rad);
+    leveled = up.has_value();
+    if (leveled) level = LevelMotion(*up);
+  }
+  level.Learn(aligned.motion.T_start, aligned.covariance.topLeftCorner<3, 3>());
 }
 
 void Odometry::Impl::LearnPredictionError(const SweepMotion& predicted, const SweepMotion& actual) {
@@ -300,7 +313,7 @@ OdometryResult Odometry::Register(const Scan& scan, const std::optional<GivenMot
     if (!too_few) s.Start(prepared, given);
     result.ok = !too_few;
   } else {
-    const SweepPrior prior = s.PriorAbout(PredictSweep(s.last, scan.stamp_s, prepared.sweep_s, given, s.up()), scan.stamp_s,
+    const SweepPrior prior = s.PriorAbout(PredictSweep(s.last, scan.stamp_s, prepared.sweep_s, given, s.level.up()), scan.stamp_s,
                                           prepared.sweep_s, given.has_value());
     const double gap_s = scan.stamp_s - s.last.stamp_s - s.last.sweep_s;
     const RegistrationResult aligned = s.Fitted(prepared, prior, gap_s);
@@ -314,7 +327,7 @@ OdometryResult Odometry::Register(const Scan& scan, const std::optional<GivenMot
       s.found_share = s.usual_ratio = 0;
     }
     if (aligned.ok || result.restarted) s.Insert(prepared, aligned.motion);
-    if (aligned.ok && s.level) s.level->Learn(aligned.motion.T_start, aligned.covariance.topLeftCorner<3, 3>());
+    if (aligned.ok) s.LearnLevel(aligned);
     s.first.reset();  // `last` is the first scan's only until now
     s.Advance(prepared, aligned, given);
     result.ok = aligned.ok;

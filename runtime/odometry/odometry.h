@@ -19,7 +19,7 @@ namespace plumb::runtime {
 
 struct OdometryOptions {
   double voxel_m = 0.5;         // edge of the map's voxels; each keeps Gaussians of the surfaces in it
-  double scan_spacing_m = 0.1;  // scans are thinned to this distance between points before registration, less where few would be left
+  double scan_spacing_m = 0.1;  // scans are averaged over this distance before registration, less where few points would be left
   double range_sigma_m = 0.02;  // noise of a single return
   double min_range_m = 0.4, max_range_m = 80.0;
   int max_iterations = 20;

@@ -44,7 +44,7 @@ struct RegistrationOptions {
   // A direction is the prior's alone if its share of the planes' information is below this, or below what the noise of their normals makes
   // up: along a smooth corridor, normals that err by 1 degree seem to say where the robot is.
   double degenerate_ratio = 3e-4;
-  double level_ratio = 0.02;  // SweepPrior::level counts where the height along `up` has less than this share of the planes' information
+  double level_ratio = 0.01;  // SweepPrior::level counts where the height along `up` has less than this share of the planes' information
   double initial_kernel_m = 0.3;        // of the first iteration; halves down to three sigma
   bool search_neighbours = false;       // first iterations also look into neighbouring voxels: for large prediction errors
 };

@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kMinSweep_s = 1e-3, kMaxSweep_s = 2.0;  // outside, the times are in other units or broken
 constexpr double kShellsPerOctave = 2.0;
+constexpr double kSameTime = 0.05;  // of a sweep: what comes by a patch again was seen from elsewhere
 
 // Key of the patch of the sphere: the point is drawn to its range shell along the ray, then put into cubes there.
 uint64_t PatchKey(const Eigen::Vector3d& p, double range_m, double spacing_m) {
@@ -31,13 +32,20 @@ bool UsableTimes(const Scan& scan, double* sweep_s) {
   return last_s >= kMinSweep_s && last_s <= kMaxSweep_s;
 }
 
+void TakeIntoMean(const Eigen::Vector3d& p, double s, double mean_depth_m, SweepPoint* mean) {
+  if (std::abs(s - mean->s) > kSameTime || std::abs(p.norm() - mean->p.norm()) > mean_depth_m) return;
+  mean->count += 1;
+  mean->p += (p - mean->p) / mean->count;
+  mean->s += (s - mean->s) / mean->count;
+}
+
 }  // namespace
 
 SweepPoses::SweepPoses(const SweepMotion& motion) {
   for (int k = 0; k <= kKnots; ++k) T_[k] = Interpolate(motion.T_start, motion.T_end, static_cast<double>(k) / kKnots);
 }
 
-PreparedScan PrepareScan(const Scan& scan, double spacing_m, double min_range_m, double max_range_m) {
+PreparedScan PrepareScan(const Scan& scan, double spacing_m, double min_range_m, double max_range_m, double mean_depth_m) {
   PreparedScan out;
   double sweep_s = 0;
   const bool timed = UsableTimes(scan, &sweep_s);
@@ -58,7 +66,13 @@ PreparedScan PrepareScan(const Scan& scan, double spacing_m, double min_range_m,
     if (with_ring) out.scan.ring.push_back(scan.ring[i]);
     if (timed) out.scan.time_s.push_back(scan.time_s[i]);
     const double range_m = std::sqrt(range2_m2);
-    if (patches.Insert(PatchKey(p, range_m, spacing_m)).second) out.points.push_back({p, out.Fraction(out.scan.points.size() - 1)});
+    const auto [patch, is_new] = patches.Insert(PatchKey(p, range_m, spacing_m));
+    const double s = out.Fraction(out.scan.points.size() - 1);
+    if (is_new) {
+      out.points.push_back({p, s});
+    } else if (mean_depth_m > 0) {
+      TakeIntoMean(p, s, mean_depth_m, &out.points[patch]);
+    }
   }
   return out;
 }

@@ -27,10 +27,12 @@ constexpr double kFlatShare = 0.95;        // of the cells on the common fit: no
 constexpr double kMinAcross_m = 0.2;       // height of a wall segment
 constexpr double kSureArea_m2 = 1.0, kMinFill = 0.25;  // a smaller segment whose cells are strewn over a larger rectangle is noise
 constexpr double kMinCellPoints = 2;
+constexpr double kMaxContested = 0.2;      // of a cell's points
+constexpr double kMinSure = 0.5;           // of a segment's cells
 constexpr double kMinCellShare = 0.25;     // of the median cell's points: less is noise beyond an edge
 
 struct Cell {
-  const PlaneStats* stats;
+  const CellStats* stats;
   Eigen::Vector3d mean;
   double sigma_m;  // of the mean about the cell's plane
 
@@ -38,7 +40,7 @@ struct Cell {
   [[nodiscard]] bool On(const Plane& plane) const { return Offset(plane) <= kOnSigmas; }
 };
 
-Cell MakeCell(const PlaneStats& stats, double sigma_m) {
+Cell MakeCell(const CellStats& stats, double sigma_m) {
   return {&stats, stats.centroid(), std::sqrt(kFlatness_m * kFlatness_m + sigma_m * sigma_m / stats.count())};
 }
 
@@ -104,7 +106,7 @@ double MinCellCount(const std::vector<Cell>& cells) {
 
 // Cells joined in squares of kSquare_m: their means say more surely which plane they are on.
 struct Squares {
-  std::vector<PlaneStats> stats;
+  std::vector<CellStats> stats;
   std::vector<Cell> cells;
   std::vector<uint32_t> of;  // each cell's
 };
@@ -117,7 +119,7 @@ Squares Joined(const std::vector<Cell>& cells, const PlaneAxes& axes, double sig
     squares.stats[i].Add(*cell.stats);
     squares.of.push_back(i);
   }
-  for (const PlaneStats& stats : squares.stats) squares.cells.push_back(MakeCell(stats, sigma_m));
+  for (const CellStats& stats : squares.stats) squares.cells.push_back(MakeCell(stats, sigma_m));
   return squares;
 }
 
@@ -155,12 +157,20 @@ std::vector<Cell> LargestGroup(const std::vector<Cell>& cells, const PlaneAxes& 
   return largest == groups.end() ? std::vector<Cell>() : *largest;
 }
 
+// Sum over those cells whose points are no other plane's: at a corner or a step, the noise of each strays into the other's, one-sidedly.
+// Over all where they are few.
+PlaneStats SureSum(const std::vector<Cell>& cells) {
+  const CellSum sure = SumOf(cells, [&](const Cell& cell) { return cell.stats->contested <= kMaxContested * cell.stats->count(); });
+  if (static_cast<double>(sure.cells) >= kMinSure * static_cast<double>(cells.size())) return sure.stats;
+  return SumOf(cells, [](const Cell&) { return true; }).stats;
+}
+
 // The segment of cells on a plane, or none if it is too small.
 std::optional<Segment> SegmentOf(const std::vector<Cell>& cells, SurfaceKind kind, const Eigen::Vector3d& normal, const PlaneAxes& axes,
                                  double min_count, const MapperOptions& options) {
   Segment segment;
   segment.kind = kind;
-  segment.stats = SumOf(cells, [](const Cell&) { return true; }).stats;
+  segment.stats = SureSum(cells);
   if (segment.stats.count() < options.min_segment_points) return std::nullopt;
   segment.plane = FitPlane(segment.stats, normal).plane;
   Eigen::Vector2d lo = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity()), hi = -lo;
@@ -214,10 +224,10 @@ PlaneAxes AxesOf(const Plane& plane, SurfaceKind kind, const Eigen::Vector3d& up
   return axes;
 }
 
-std::vector<Segment> SplitCells(const std::vector<PlaneStats>& cells, SurfaceKind kind, const Eigen::Vector3d& normal,
-                                const PlaneAxes& axes, double sigma_m, const MapperOptions& options) {
+std::vector<Segment> SplitCells(const std::vector<CellStats>& cells, SurfaceKind kind, const Eigen::Vector3d& normal, const PlaneAxes& axes,
+                                double sigma_m, const MapperOptions& options) {
   std::vector<Cell> remaining;
-  for (const PlaneStats& cell : cells) {
+  for (const CellStats& cell : cells) {
     if (cell.count() >= kMinCellPoints) remaining.push_back(MakeCell(cell, sigma_m));
   }
   if (remaining.empty()) return {};

@@ -112,12 +112,12 @@ struct Candidate {
   double sigma_m = 0;
   bool stays = true;
   VoxelIndex cell_index;
-  std::vector<PlaneStats> cells;  // each kCell_m square
+  std::vector<CellStats> cells;  // each kCell_m square
 
   [[nodiscard]] Eigen::Vector3d Cell(const Eigen::Vector3d& p) const {
     return {axes.along.dot(p) / kCell_m, axes.across.dot(p) / kCell_m, 0};
   }
-  PlaneStats& CellAt(const Eigen::Vector3d& p) {
+  CellStats& CellAt(const Eigen::Vector3d& p) {
     const uint32_t cell = cell_index.Insert(VoxelKey(Cell(p))).first;
     if (cell == cells.size()) cells.emplace_back();
     return cells[cell];
@@ -230,10 +230,16 @@ void AssignPoints(const View& view, const Reach& reach, std::vector<Candidate>* 
     const Eigen::Vector3d p = point.cast<double>();
     FindMatches(p, view.sensor, reach, *candidates, kBandSigmas, &matches);
     const Match* best = nullptr;
+    int claims = 0;
     for (const Match& m : matches) {
-      if ((*candidates)[m.candidate].stays && (best == nullptr || m.distance_m < best->distance_m)) best = &m;
+      if (!(*candidates)[m.candidate].stays) continue;
+      ++claims;
+      if (best == nullptr || m.distance_m < best->distance_m) best = &m;
     }
-    if (best != nullptr && best->steep) (*candidates)[best->candidate].CellAt(p).Add(p);
+    if (best == nullptr || !best->steep) continue;
+    CellStats& cell = (*candidates)[best->candidate].CellAt(p);
+    cell.Add(p);
+    if (claims > 1) cell.contested += 1;
   }
 }
 
@@ -266,7 +272,7 @@ void ReturnTails(const Reach& reach, std::vector<Candidate>* candidates) {
     }
   }
   for (const Tail& tail : tails) {
-    PlaneStats& cell = (*candidates)[tail.from].cells[tail.cell];
+    CellStats& cell = (*candidates)[tail.from].cells[tail.cell];
     const PlaneStats moved = cell;
     cell = {};
     (*candidates)[tail.to].CellAt(moved.centroid()).Add(moved);

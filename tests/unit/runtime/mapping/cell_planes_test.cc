@@ -12,14 +12,14 @@ namespace plumb::runtime {
 namespace {
 
 // A wall 8 m long and 2 m high, seen from smaller y, as deep at x as `depth` tells, NaN for nothing: cells of a few noisy points.
-std::vector<PlaneStats> Wall(const std::function<double(double x_m)>& depth, int cell_points, double noise_m, unsigned seed = 3) {
+std::vector<CellStats> Wall(const std::function<double(double x_m)>& depth, int cell_points, double noise_m, unsigned seed = 3) {
   std::mt19937 random(seed);
   std::normal_distribution<double> noise(0, noise_m);
-  std::vector<PlaneStats> cells;
+  std::vector<CellStats> cells;
   for (double x_m = 0.05; x_m < 8; x_m += kCell_m) {
     const double y_m = depth(x_m);
     for (double z_m = 0.05; z_m < 2 && !std::isnan(y_m); z_m += kCell_m) {
-      PlaneStats& cell = cells.emplace_back();
+      CellStats& cell = cells.emplace_back();
       for (int i = 0; i < cell_points; ++i) cell.Add({x_m, y_m + noise(random), z_m});
     }
   }
@@ -29,7 +29,7 @@ std::vector<PlaneStats> Wall(const std::function<double(double x_m)>& depth, int
 // 6 m of wall and, after 1 m of something else, 1 m more.
 double TwoPieces(double x_m, double step_m) { return x_m < 6 ? 0 : x_m > 7 ? step_m : std::nan(""); }
 
-std::vector<Segment> Split(const std::vector<PlaneStats>& cells, double noise_m) {
+std::vector<Segment> Split(const std::vector<CellStats>& cells, double noise_m) {
   const Eigen::Vector3d normal = -Eigen::Vector3d::UnitY();
   const PlaneAxes axes = AxesOf({normal, 0}, SurfaceKind::kWall, Eigen::Vector3d::UnitZ());
   return SplitCells(cells, SurfaceKind::kWall, normal, axes, noise_m, {});
@@ -51,6 +51,22 @@ TEST(SplitCells, LeavesAFlatWallWhole) {
   const std::vector<Segment> segments = Split(Wall([](double x_m) { return TwoPieces(x_m, 0); }, 5, 0.03), 0.03);
   ASSERT_EQ(segments.size(), 1u);
   EXPECT_GT(segments[0].cells.size(), 1330u) << "of 1400";
+}
+
+// The last of them as at a corner, where the next wall's noise comes in before this wall: it stays in the extent and leans nothing.
+TEST(SplitCells, CellsThatAnotherPlaneClaimsTellNothingOfThePlane) {
+  std::vector<CellStats> cells = Wall([](double x_m) { return x_m > 7.7 ? -0.006 : x_m < 6.5 ? std::nan("") : 0; }, 100, 0.01);
+  const Segment leaning = Split(cells, 0.01).at(0);
+  for (CellStats& cell : cells) {
+    if (cell.centroid().x() > 7.7) cell.contested = 0.5 * cell.count();
+  }
+  const Segment straight = Split(cells, 0.01).at(0);
+  EXPECT_GT(std::abs(leaning.plane.n.x()), 0.002);
+  EXPECT_LT(std::abs(straight.plane.n.x()), 0.0006);
+  EXPECT_EQ(straight.cells.size(), leaning.cells.size());
+  EXPECT_LT(straight.stats.count(), leaning.stats.count());
+  for (CellStats& cell : cells) cell.contested = cell.count();
+  EXPECT_EQ(Split(cells, 0.01).at(0).stats.count(), leaning.stats.count()) << "else nothing would be known of a door leaf before its wall";
 }
 
 // How far along a segment's cells reach.

@@ -23,6 +23,7 @@ namespace {
 constexpr double kMaxTilt_rad = 0.6109;   // the sensor starts this near to what is expected
 constexpr double kLevelingVoxel_m = 1.0;  // wide enough for two rings on the floor
 constexpr int kLevelingTries = 20;        // scans after the first: while the map is small
+constexpr double kToldLevel_m = 0.01;     // climbed by the first scan, if what is level was told and not seen
 constexpr int kMinFirstPoints = 200;
 constexpr int kMaxFailures = 10;     // in a row, scans without points not counted; then a new map begins at the predicted pose
 constexpr double kLeastShare = 0.4;  // of what the last scan found on the map, the next finds so much; less is another place
@@ -82,6 +83,8 @@ struct Odometry::Impl {
   void Insert(const PreparedScan& prepared, const SweepMotion& motion);
   void Advance(const PreparedScan& prepared, const RegistrationResult& aligned, const std::optional<GivenMotion>& given);
   void LearnLevel(const RegistrationResult& aligned);
+  // Along which climbing dies out: an axis that was only told may lean, and the robot drives along it then.
+  [[nodiscard]] std::optional<Eigen::Vector3d> up() const { return leveled ? std::optional(level.up()) : std::nullopt; }
   void LearnPredictionError(const SweepMotion& predicted, const SweepMotion& actual);
 
   OdometryOptions options;
@@ -90,7 +93,7 @@ struct Odometry::Impl {
   std::optional<PreparedScan> first;  // until the second scan tells how fast the first one moved
   bool started = false;
   double spacing_m = options.scan_spacing_m;  // that the next scan is thinned to
-  // If the first scan does not show which way is up, z of the odometry's frame is what was told, and what is level, too, until a scan does.
+  // Until the map shows which way is up, z of odometry's frame, which was told, is taken for it. The frame itself never turns.
   LevelMotion level{Eigen::Vector3d::UnitZ()};
   bool leveled = false;
   int leveling_tries = 0;
@@ -160,7 +163,7 @@ void Odometry::Impl::Start(const PreparedScan& prepared, const std::optional<Giv
   const std::optional<Eigen::Vector3d> up = UpAtStart(prepared);
   motion.T_start.linear() = LevelingRotation(up ? *up : SupposedUp(given));
   leveled = up.has_value();
-  if (leveled) last.covariance(11, 11) = 0;
+  last.covariance(11, 11) = leveled ? 0 : kToldLevel_m * kToldLevel_m;
   motion.T_end = motion.T_start;
   if (given && prepared.sweep_s > 0) {
     motion.T_end = motion.T_start * given->T_start.inverse() * given->T_end;
@@ -230,10 +233,10 @@ void Odometry::Impl::RestartWithVelocity(const PreparedScan& second, const Sweep
   const Twist measured = TwistBetween(aligned->motion.T_start, aligned->motion.T_end, second.sweep_s);
   if (measured.v_mps.norm() < kBootstrapSpeed_mps && measured.w_radps.norm() < kBootstrapTurn_radps) return;
   last.twist = measured;
-  last.motion.T_end = Advanced(last.motion.T_start, last.twist, last.sweep_s, level.up());
+  last.motion.T_end = Advanced(last.motion.T_start, last.twist, last.sweep_s, up());
   SweepGaussian better = prior;
-  better.mean.T_start = Advanced(last.motion.T_start, last.twist, second.scan.stamp_s - last.stamp_s, level.up());
-  better.mean.T_end = Advanced(better.mean.T_start, last.twist, second.sweep_s, level.up());
+  better.mean.T_start = Advanced(last.motion.T_start, last.twist, second.scan.stamp_s - last.stamp_s, up());
+  better.mean.T_end = Advanced(better.mean.T_start, last.twist, second.sweep_s, up());
   map = SurfelMap(map.options());
   Insert(*first, last.motion);
   const RegistrationResult again = Align(second, PriorAbout(better, second.scan.stamp_s, second.sweep_s, last.given.has_value()), 0);
@@ -268,7 +271,7 @@ void Odometry::Impl::LearnLevel(const RegistrationResult& aligned) {
     ++leveling_tries;
     const std::optional<Eigen::Vector3d> up = FindUp(map, Eigen::Vector3d::UnitZ(), kMaxTilt_rad);
     leveled = up.has_value();
-    if (leveled) level = LevelMotion(*up);
+    if (leveled) level.SetUp(*up);
   }
   level.Learn(aligned.motion.T_start, aligned.covariance.topLeftCorner<3, 3>());
 }
@@ -313,7 +316,7 @@ OdometryResult Odometry::Register(const Scan& scan, const std::optional<GivenMot
     if (!too_few) s.Start(prepared, given);
     result.ok = !too_few;
   } else {
-    const SweepPrior prior = s.PriorAbout(PredictSweep(s.last, scan.stamp_s, prepared.sweep_s, given, s.level.up()), scan.stamp_s,
+    const SweepPrior prior = s.PriorAbout(PredictSweep(s.last, scan.stamp_s, prepared.sweep_s, given, s.up()), scan.stamp_s,
                                           prepared.sweep_s, given.has_value());
     const double gap_s = scan.stamp_s - s.last.stamp_s - s.last.sweep_s;
     const RegistrationResult aligned = s.Fitted(prepared, prior, gap_s);

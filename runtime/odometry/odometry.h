@@ -35,8 +35,8 @@ struct OdometryResult {
   bool restarted = false;
   bool planar = false;  // the sensor is a planar laser
   bool timed = false;   // per-point times were usable; else points are taken to be of the stamp, "deskew off"
-  // At the scan's stamp. odom: origin and yaw of the first scan, z up (from floor, ceiling or walls in the first scan, else its own z
-  // axis).
+  // At the scan's stamp. odom: origin and yaw of the first scan, z up (from floor, ceiling or walls in the first scan, else as it was
+  // told).
   Eigen::Isometry3d T_odom_lidar = Eigen::Isometry3d::Identity();
   Scan deskewed;  // finite points in range, in the lidar frame at the scan's stamp; time_s still says when each was fired
   int iterations = 0;

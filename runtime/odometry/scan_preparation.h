@@ -61,7 +61,8 @@ struct PreparedScan {
 // Drops what is not finite or out of range and thins to one point per patch of the sphere about the sensor that is spacing_m wide at the
 // point's range. Thinning by direction, not by voxels, because range noise must not decide which points stay: of a voxel that holds only
 // the tail of a wall's noise, one point would stay as of any other, and the wall would be biased. A patch's point is the mean of those
-// returns whose range is within `mean_depth_m` of it and that were fired at about the same time; 0: its first return. O(points).
+// returns whose range is within `mean_depth_m` of it and that were fired at about the same time, which scans without times do not tell; 0:
+// its first return. O(points).
 [[nodiscard]] PreparedScan PrepareScan(const Scan& scan, double spacing_m, double min_range_m, double max_range_m, double mean_depth_m = 0);
 
 // All points moved to the lidar frame at the sweep's start. They keep the times at which they were fired.

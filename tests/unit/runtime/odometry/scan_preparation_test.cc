@@ -33,10 +33,9 @@ double RmsOff_m(const PreparedScan& prepared) {
 TEST(PrepareScan, MeansOfAPatchHaveLessNoiseThanItsFirstReturns) {
   const Scan scan = NoisyWall(0.02);
   const PreparedScan first = PrepareScan(scan, 0.1, 0.4, 80), mean = PrepareScan(scan, 0.1, 0.4, 80, 0.1);
-  ASSERT_EQ(first.points.size(), mean.points.size());
   double returns = 0;
   for (const SweepPoint& point : mean.points) returns += point.count;
-  EXPECT_GT(returns, 0.95 * static_cast<double>(scan.points.size()));  // the rest is at other shells' borders
+  EXPECT_GT(returns, 0.95 * static_cast<double>(scan.points.size()));  // the rest lies at the patches' depth gates
   EXPECT_GT(RmsOff_m(first), 0.015);
   EXPECT_LT(RmsOff_m(mean), 1.3 * RmsOff_m(first) / std::sqrt(returns / static_cast<double>(mean.points.size())));
 }
@@ -55,6 +54,7 @@ TEST(PrepareScan, MixesNoDepthsAndNoTimes) {
   EXPECT_EQ(mean.count, 2);
   EXPECT_NEAR(mean.p.x(), 3.02, 1e-6);
   EXPECT_NEAR(mean.s, 0.01, 1e-6);
+  EXPECT_EQ(PrepareScan(TwoReturns(near, behind, 0.002f), 0.1, 0.4, 80).points.size(), 2u) << "one patch, and the far point";
   EXPECT_EQ(first_of(TwoReturns(near, behind, 0.002f)).count, 1);
   EXPECT_EQ(first_of(TwoReturns(near, beside, 0.05f)).count, 1);
 }

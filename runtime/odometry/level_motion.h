@@ -14,7 +14,7 @@ class LevelMotion {
   // Direction away from gravity in odometry's frame, roughly: the axis is learned, too.
   explicit LevelMotion(const Eigen::Vector3d& up) : first_up_(up), up_(up) {}
 
-  // Better known now; what was learned of the sway stays.
+  // As in the constructor, better known now; what was learned of the sway stays.
   void SetUp(const Eigen::Vector3d& up) { first_up_ = up_ = up; }
 
   // After each sweep that was registered, with the covariance of its pose (registration.h). O(1).

@@ -23,7 +23,7 @@ namespace {
 constexpr double kMaxTilt_rad = 0.6109;   // the sensor starts this near to what is expected
 constexpr double kLevelingVoxel_m = 1.0;  // wide enough for two rings on the floor
 constexpr int kLevelingTries = 20;        // scans after the first: while the map is small
-constexpr double kToldLevel_m = 0.01;     // climbed by the first scan, if what is level was told and not seen
+constexpr double kToldLevel_m = 0.01;     // sigma of what was climbed in the first sweep, if up was told, not seen
 constexpr int kMinFirstPoints = 200;
 constexpr int kMaxFailures = 10;     // in a row, scans without points not counted; then a new map begins at the predicted pose
 constexpr double kLeastShare = 0.4;  // of what the last scan found on the map, the next finds so much; less is another place

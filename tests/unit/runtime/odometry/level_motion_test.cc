@@ -59,6 +59,15 @@ TEST(LevelMotion, CarriedSensorIsFree) {
   EXPECT_GT(ClimbSigma_m(level, 1.0), 0.004);
 }
 
+TEST(LevelMotion, CarriedSensorStaysFreeWhenUpIsFound) {
+  LevelMotion level(Eigen::Vector3d::UnitZ());
+  for (int i = 0; i < 200; ++i) level.Learn(Turned(0.02 * i, 0.06 * std::sin(1.3 * i)), kNoNoise);
+  const Eigen::Vector3d up = Eigen::Vector3d(0.02, 0, 1).normalized();
+  level.SetUp(up);
+  EXPECT_NEAR((level.up() - up).norm(), 0, 1e-12);
+  EXPECT_GT(level.sway_rad(), 0.02);
+}
+
 TEST(LevelMotion, LearnsTheAxisThatTheRobotTurnsAbout) {
   const Eigen::Vector3d axis = Eigen::Vector3d(0.01, -0.005, 1).normalized();
   LevelMotion level(Eigen::Vector3d::UnitZ());

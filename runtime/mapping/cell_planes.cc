@@ -5,6 +5,7 @@
 #include <iterator>
 #include <limits>
 #include <optional>
+#include <utility>
 
 #include "runtime/mapping/plane_fit.h"
 #include "runtime/odometry/voxel_index.h"
@@ -157,11 +158,37 @@ std::vector<Cell> LargestGroup(const std::vector<Cell>& cells, const PlaneAxes& 
   return largest == groups.end() ? std::vector<Cell>() : *largest;
 }
 
-// Sum over those cells whose points are no other plane's: at a corner or a step, the noise of each strays into the other's, one-sidedly.
-// Over all where they are few.
-PlaneStats SureSum(const std::vector<Cell>& cells) {
-  const CellSum sure = SumOf(cells, [&](const Cell& cell) { return cell.stats->contested <= kMaxContested * cell.stats->count(); });
-  if (static_cast<double>(sure.cells) >= kMinSure * static_cast<double>(cells.size())) return sure.stats;
+// Which cells have others of the segment on both sides along it: what is at the end of one, as a jamb behind a wall's edge, strays into the
+// last cell.
+std::vector<bool> Inner(const std::vector<Cell>& cells, const PlaneAxes& axes, double min_count) {
+  VoxelIndex index;
+  const auto square = [&](const Cell& cell, int along, int across) {
+    return VoxelKey({axes.along.dot(cell.mean) / kCell_m + along, axes.across.dot(cell.mean) / kCell_m + across, 0});
+  };
+  for (const Cell& cell : cells) {
+    if (cell.stats->count() >= min_count) index.Insert(square(cell, 0, 0));
+  }
+  const auto has = [&](const Cell& cell, int along) {
+    for (int across = -1; across <= 1; ++across) {
+      if (index.Find(square(cell, along, across)) != VoxelIndex::kNone) return true;
+    }
+    return false;
+  };
+  std::vector<bool> inner;
+  for (const Cell& cell : cells) inner.push_back(has(cell, -1) && has(cell, 1));
+  return inner;
+}
+
+// Sum over the inner cells whose points are no other plane's: at a corner or a step, the noise of each strays into the other's,
+// one-sidedly. Where these are few, over all that are no other plane's, or over the inner ones, or over all.
+PlaneStats SureSum(const std::vector<Cell>& cells, const PlaneAxes& axes, double min_count) {
+  const std::vector<bool> inner = Inner(cells, axes, min_count);
+  const auto is_inner = [&](const Cell& cell) { return inner[static_cast<size_t>(&cell - cells.data())]; };
+  const auto is_own = [](const Cell& cell) { return cell.stats->contested <= kMaxContested * cell.stats->count(); };
+  for (const auto& [only_inner, only_own] : {std::pair{true, true}, {false, true}, {true, false}}) {
+    const CellSum sum = SumOf(cells, [&](const Cell& cell) { return (!only_inner || is_inner(cell)) && (!only_own || is_own(cell)); });
+    if (static_cast<double>(sum.cells) >= kMinSure * static_cast<double>(cells.size())) return sum.stats;
+  }
   return SumOf(cells, [](const Cell&) { return true; }).stats;
 }
 
@@ -170,7 +197,7 @@ std::optional<Segment> SegmentOf(const std::vector<Cell>& cells, SurfaceKind kin
                                  double min_count, const MapperOptions& options) {
   Segment segment;
   segment.kind = kind;
-  segment.stats = SureSum(cells);
+  segment.stats = SureSum(cells, axes, min_count);
   if (segment.stats.count() < options.min_segment_points) return std::nullopt;
   segment.plane = FitPlane(segment.stats, normal).plane;
   Eigen::Vector2d lo = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity()), hi = -lo;

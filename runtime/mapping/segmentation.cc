@@ -6,6 +6,7 @@
 #include <numeric>
 #include <optional>
 
+#include "runtime/mapping/bridges.h"
 #include "runtime/mapping/cell_planes.h"
 #include "runtime/numerics/symmetric_eigen.h"
 #include "runtime/odometry/voxel_index.h"
@@ -336,6 +337,7 @@ std::vector<Segment> ExtractSegments(const KeyframeWindow& window, const MapperO
   std::vector<Segment> segments = SegmentsOf(window.views(), window.surfels(), up, options, &rest);
   const SurfelMap coarse = CoarseSurfels(rest, window.surfels().options());
   for (Segment& far : SegmentsOf(rest, coarse, up, options, nullptr)) segments.push_back(std::move(far));
+  DropBridges(&segments);
   return segments;
 }
 

@@ -69,6 +69,35 @@ TEST(SplitCells, CellsThatAnotherPlaneClaimsTellNothingOfThePlane) {
   EXPECT_EQ(Split(cells, 0.01).at(0).stats.count(), leaning.stats.count()) << "else nothing would be known of a door leaf before its wall";
 }
 
+// A pier between two windows: behind its ends stand the reveals, too narrow to be planes of their own. Their points stray into the pier's
+// last cells.
+TEST(SplitCells, WhatIsAtItsEndsLeansNoPier) {
+  const auto pier = [](double left_m, double right_m) {
+    return Split(Wall([=](double x_m) { return x_m < 6 || x_m > 7 ? std::nan("")
+                                               : x_m < 6.1        ? left_m
+                                               : x_m > 6.9        ? right_m
+                                                                  : 0; }, 200,
+                      0.02),
+                 0.02)
+        .at(0);
+  };
+  const Segment upright = pier(0, 0), between = pier(0.006, -0.006);
+  EXPECT_LT(std::abs(upright.plane.n.x()), 0.001);
+  EXPECT_LT(std::abs(between.plane.n.x()), 0.001);
+  EXPECT_EQ(between.cells.size(), 200u) << "they are the wall's all the same";
+}
+
+// Where the scan's lines are far apart, most cells have none beside them: then all of them tell the plane.
+TEST(SplitCells, FewCellsAllTellThePlane) {
+  std::vector<CellStats> cells = Wall([](double) { return 0; }, 50, 0.01), sparse;
+  for (size_t i = 0; i < cells.size(); ++i) {
+    if (i / 20 % 2 == 0) sparse.push_back(cells[i]);
+  }
+  const std::vector<Segment> segments = Split(sparse, 0.01);
+  ASSERT_EQ(segments.size(), 1u);
+  EXPECT_EQ(segments[0].stats.count(), 50.0 * static_cast<double>(sparse.size()));
+}
+
 // How far along a segment's cells reach.
 std::pair<float, float> Reach(const Segment& segment) {
   const auto [lo, hi] = std::minmax_element(segment.cells.begin(), segment.cells.end(),

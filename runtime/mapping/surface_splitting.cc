@@ -117,6 +117,10 @@ Split BestSplit(const std::vector<PlaneStats>& views, const PlaneStats& sum, con
     Refine(views, towards, &split);
     if (split.square_sum_m2 < best.square_sum_m2) best = std::move(split);
   }
+  if (best.second.front()) {  // which is first must not depend on an axis' sign
+    best.second.flip();
+    best = SplitInto(views, std::move(best.second), towards);
+  }
   return best;
 }
 
@@ -165,7 +169,7 @@ std::optional<Split> FindSplit(const std::vector<PlaneStats>& views, const Eigen
 
 using PartViews = std::array<uint32_t, 2>;  // from how many keyframes a cell was seen on each plane
 
-// By the points that the keyframes keep, on or next to each cell.
+// By the points that the keyframes keep.
 std::vector<PartViews> CountViews(const MapSurface& surface, const SurfacePatch& patch, const Split& split,
                                   const std::vector<Keyframe>& keyframes, double band_m) {
   VoxelIndex index(patch.cells().size());
@@ -184,10 +188,8 @@ std::vector<PartViews> CountViews(const MapSurface& surface, const SurfacePatch&
       const double off_m = std::abs(split.planes[part].SignedDistance(p));
       if (off_m > band_m || off_m > std::abs(split.planes[1 - part].SignedDistance(p))) continue;
       const Eigen::Vector2d at = patch.Coordinates(p) / kCell_m;
-      for (int k = 0; k < 9; ++k) {
-        const uint32_t place = index.Find(VoxelKey({at.x() + k % 3 - 1, at.y() + k / 3 - 1, 0}));
-        if (place != VoxelIndex::kNone && std::exchange(last_view[place], i + 1) != i + 1) ++counts[place][part];
-      }
+      const uint32_t place = index.Find(VoxelKey({at.x(), at.y(), 0}));
+      if (place != VoxelIndex::kNone && std::exchange(last_view[place], i + 1) != i + 1) ++counts[place][part];
     }
   }
   for (const uint32_t place : places) out.push_back(counts[place]);

@@ -22,6 +22,7 @@ bool SeemsToDeviate(const WallEstimate& wall, const DeviationOptions& options) {
 }  // namespace
 
 void FollowSplits(const std::vector<SurfaceSplit>& splits, std::vector<Match>* matches) {
+  if (splits.empty()) return;
   for (const SurfaceSplit& split : splits) {
     const size_t before = matches->size();
     for (size_t i = 0; i < before; ++i) {

@@ -155,13 +155,13 @@ bool FitOnePlane(const PlaneStats& a, const PlaneStats& b, const Eigen::Vector3d
   return fits(a) && fits(b);
 }
 
-double CoveredShare(const SurfacePatch& b, const std::vector<const SurfacePatch*>& by) {
+double CoveredShare(const SurfacePatch& b, const std::vector<const SurfacePatch*>& by, double distance_m) {
   const std::vector<Eigen::Vector3d> cells = b.CellPoints();
   size_t covered = 0;
   for (size_t c = 0; c < cells.size(); ++c) {
     // A wall's plane may graze the next one, of which it has a few cells then: many points elsewhere are no evidence here.
     covered += std::any_of(by.begin(), by.end(),
-                           [&](const SurfacePatch* a) { return kOwnViews * a->ViewsAbout(cells[c], kEchoDistance_m) >= b.views()[c]; });
+                           [&](const SurfacePatch* a) { return kOwnViews * a->ViewsAbout(cells[c], distance_m) >= b.views()[c]; });
   }
   return static_cast<double>(covered) / static_cast<double>(cells.size());
 }
@@ -176,7 +176,7 @@ bool IsEcho(const MapSurface& b, const SurfacePatch& b_patch, const std::vector<
     const bool strong = a.kind == b.kind && !a.observations.empty() && b.num_points <= kEchoPoints * a.num_points;
     if (strong && a.plane.n.dot(b.plane.n) >= kEchoFacingCos) stronger.push_back(&tracks[i].patch);
   }
-  return !stronger.empty() && CoveredShare(b_patch, stronger) >= kEchoShare;
+  return !stronger.empty() && CoveredShare(b_patch, stronger, kEchoDistance_m) >= kEchoShare;
 }
 
 std::vector<bool> EchoCells(const MapSurface& b, const SurfacePatch& b_patch, const std::vector<MapSurface>& surfaces,

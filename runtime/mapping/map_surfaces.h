@@ -37,8 +37,9 @@ struct TrackedSurface {
 // The same of points alone; `towards`: roughly the normal.
 [[nodiscard]] bool FitOnePlane(const PlaneStats& a, const PlaneStats& b, const Eigen::Vector3d& towards, const MapperOptions& options);
 
-// Share of b's cells of which any of the others has been seen half as often as b or more, on or next to them and close in front or behind.
-[[nodiscard]] double CoveredShare(const SurfacePatch& b, const std::vector<const SurfacePatch*>& by);
+// Share of b's cells of which any of the others has been seen half as often as b or more, on or next to them and no further than that in
+// front or behind.
+[[nodiscard]] double CoveredShare(const SurfacePatch& b, const std::vector<const SurfacePatch*>& by, double distance_m);
 
 // Whether b is none: most of its cells lie close in front of or behind where surfaces that face the same way and have many times as many
 // points, one or several of them, have been seen half as often as b or more. Of two opaque surfaces one hides the other, so nothing real

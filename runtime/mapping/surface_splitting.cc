@@ -278,7 +278,8 @@ std::optional<TrackedSurface> SplitOff(const std::vector<Keyframe>& keyframes, c
   TrackedSurface part = PartOf(*surface, patch, *split, 1 - larger, shares, keyframes);
   const SurfacePatch &a = kept.track.patch, &b = part.track.patch;
   if (!IsLargeEnough(a, options) || !IsLargeEnough(b, options)) return {};
-  if (CoveredShare(a, {&b}) >= kMaxCovered || CoveredShare(b, {&a}) >= kMaxCovered) return {};
+  constexpr double kAnyDistance = std::numeric_limits<double>::infinity();
+  if (CoveredShare(a, {&b}, kAnyDistance) >= kMaxCovered || CoveredShare(b, {&a}, kAnyDistance) >= kMaxCovered) return {};
   Recompute(keyframes, &kept.surface, &kept.track);
   Recompute(keyframes, &part.surface, &part.track);
   *surface = std::move(kept.surface);

@@ -88,8 +88,11 @@ bool PlanEstimate::SolveOnce(Mapper& mapper, bool covariances, bool judging, std
   FollowSplits(*splits, &matches_);
   for (const SurfaceSplit& split : *splits) {
     std::erase_if(other_shapes_, [&](const auto& shape) { return shape.first == split.part; });  // of what was in its slot before
-    const auto wall = std::find_if(other_shapes_.begin(), other_shapes_.end(), [&](const auto& s) { return s.first == split.from; });
-    if (wall != other_shapes_.end()) other_shapes_.insert({split.part, wall->second});
+    std::vector<std::pair<uint32_t, WallId>> of_part;
+    for (const auto& [surface, wall] : other_shapes_) {
+      if (surface == split.from) of_part.emplace_back(split.part, wall);
+    }
+    other_shapes_.insert(of_part.begin(), of_part.end());
   }
   return true;
 }

@@ -176,7 +176,7 @@ struct GraphEstimator::Impl {
     if (votes_against < options.lost_after) return;
     verdict = Verdict::kLost;
     estimate.Hold(mapper.T_map_odom());
-    // The plan has bent the map to a wrong place: back to what odometry says. (Surfaces that were merged meanwhile stay merged.)
+    // The plan has bent the map to a wrong place: back to what odometry says. (Surfaces that it had merged come apart.)
     for (Keyframe& keyframe : mapper.mutable_graph().keyframes) keyframe.T_map_kf = keyframe.T_odom_kf;
     mapper.OnPosesChanged();
     ForgetFix();

@@ -21,6 +21,21 @@ bool SeemsToDeviate(const WallEstimate& wall, const DeviationOptions& options) {
 
 }  // namespace
 
+void FollowSplits(const std::vector<SurfaceSplit>& splits, std::vector<Match>* matches) {
+  if (splits.empty()) return;
+  for (const SurfaceSplit& split : splits) {
+    const size_t before = matches->size();
+    for (size_t i = 0; i < before; ++i) {
+      if ((*matches)[i].map_surface != split.from) continue;
+      (*matches)[i].mistaken.clear();
+      Match part = (*matches)[i];
+      part.map_surface = split.part;
+      matches->push_back(std::move(part));
+    }
+  }
+  std::stable_sort(matches->begin(), matches->end(), [](const Match& a, const Match& b) { return a.map_surface < b.map_surface; });
+}
+
 void PlanEstimate::Begin(const Eigen::Isometry3d& T_plan_map, bool prior) {
   Forget();
   T_plan_map_ = T_plan_map;
@@ -43,7 +58,15 @@ JointOptions PlanEstimate::SolverOptions(const SGraph& map) const {
   return out;
 }
 
+// The walls of a surface that came apart have been judged as one. Once more is enough: a pose that moves now moves by little.
 bool PlanEstimate::Solve(Mapper& mapper, bool covariances, bool judging) {
+  std::vector<SurfaceSplit> splits;
+  if (!SolveOnce(mapper, covariances, judging, &splits)) return false;
+  if (judging && !splits.empty()) SolveOnce(mapper, covariances, judging, &splits);
+  return true;
+}
+
+bool PlanEstimate::SolveOnce(Mapper& mapper, bool covariances, bool judging, std::vector<SurfaceSplit>* splits) {
   std::vector<Match> matches = MatchSurfaces(mapper.graph(), *plan_, T_plan_map_, known_, options_->coupling);
   // Whatever stands where a wall is missing is not that wall.
   std::erase_if(matches, [&](const Match& m) {
@@ -61,7 +84,16 @@ bool PlanEstimate::Solve(Mapper& mapper, bool covariances, bool judging) {
   for (const WallEstimate& wall : joint_.walls) known_[wall.wall.index()] = wall.deviation;
   std::vector<Keyframe>& keyframes = mapper.mutable_graph().keyframes;
   for (size_t i = 0; i < keyframes.size() && i < joint_.T_map_kf.size(); ++i) keyframes[i].T_map_kf = joint_.T_map_kf[i];
-  mapper.OnPosesChanged(judging);
+  *splits = mapper.OnPosesChanged(judging);
+  FollowSplits(*splits, &matches_);
+  for (const SurfaceSplit& split : *splits) {
+    std::erase_if(other_shapes_, [&](const auto& shape) { return shape.first == split.part; });  // of what was in its slot before
+    std::vector<std::pair<uint32_t, WallId>> of_part;
+    for (const auto& [surface, wall] : other_shapes_) {
+      if (surface == split.from) of_part.emplace_back(split.part, wall);
+    }
+    other_shapes_.insert(of_part.begin(), of_part.end());
+  }
   return true;
 }
 

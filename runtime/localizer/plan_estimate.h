@@ -16,6 +16,9 @@
 
 namespace plumb::runtime {
 
+// Matches of surfaces that the map has split since: both parts have them, without what was mistaken of the whole; in the order of surfaces.
+void FollowSplits(const std::vector<SurfaceSplit>& splits, std::vector<Match>* matches);
+
 // A value: to know what the end would be, judge a copy of it, on a copy of the map. Deterministic.
 class PlanEstimate {
  public:
@@ -45,8 +48,9 @@ class PlanEstimate {
   [[nodiscard]] const WallChanges& changes() const { return changes_; }  // as last judged
 
  private:
-  // `judging`: with all that the last word on walls rests on.
+  // `judging`: with all that the last word on walls rests on; then what the new poses split is solved for anew.
   bool Solve(Mapper& mapper, bool covariances, bool judging);
+  bool SolveOnce(Mapper& mapper, bool covariances, bool judging, std::vector<SurfaceSplit>* splits);
   void FindOtherShapes(const SGraph& map);
   [[nodiscard]] WallId WallOf(const Match& match) const { return plan_->surfaces[match.plan_surface.index()].wall; }
 
@@ -55,7 +59,7 @@ class PlanEstimate {
   Eigen::Isometry3d T_plan_map_ = Eigen::Isometry3d::Identity();  // of the last fix
   std::optional<Eigen::Isometry3d> T_found_;                      // as the matcher's rays have it
   JointResult joint_;
-  std::vector<Match> matches_;        // that `joint_` is based on
+  std::vector<Match> matches_;        // that `joint_` is based on, by the surfaces that the map has since
   std::vector<WallDeviation> known_;  // per plan wall, as estimated so far
   WallChanges changes_;
   std::set<std::pair<uint32_t, WallId>> other_shapes_;  // map surfaces that are something else of the plan than this wall

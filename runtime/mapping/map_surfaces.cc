@@ -140,16 +140,30 @@ bool MayTouch(const Ball& a, const Ball& b, const MapperOptions& options) {
 }
 
 bool FitOnePlane(const SurfaceTrack& a, const SurfaceTrack& b, const MapperOptions& options) {
-  PlaneStats both = a.sum;
-  both.Add(b.sum);
-  const Eigen::Vector3d& towards = a.patch.plane().n;
+  return FitOnePlane(a.sum, b.sum, a.patch.plane().n, options);
+}
+
+bool FitOnePlane(const PlaneStats& a, const PlaneStats& b, const Eigen::Vector3d& towards, const MapperOptions& options) {
+  PlaneStats both = a;
+  both.Add(b);
   const Plane joint = FitPlane(both, towards).plane;
   const double max_off_m = kMaxJointOff * options.merge_distance_m;
   const auto fits = [&](const PlaneStats& sum) {
     const double own_m = FitPlane(sum, towards).rms_m, joint_m2 = MeanSquareDistance(sum, joint);
     return joint_m2 - own_m * own_m <= max_off_m * max_off_m;
   };
-  return fits(a.sum) && fits(b.sum);
+  return fits(a) && fits(b);
+}
+
+double CoveredShare(const SurfacePatch& b, const std::vector<const SurfacePatch*>& by, double distance_m) {
+  const std::vector<Eigen::Vector3d> cells = b.CellPoints();
+  size_t covered = 0;
+  for (size_t c = 0; c < cells.size(); ++c) {
+    // A wall's plane may graze the next one, of which it has a few cells then: many points elsewhere are no evidence here.
+    covered += std::any_of(by.begin(), by.end(),
+                           [&](const SurfacePatch* a) { return kOwnViews * a->ViewsAbout(cells[c], distance_m) >= b.views()[c]; });
+  }
+  return static_cast<double>(covered) / static_cast<double>(cells.size());
 }
 
 bool IsEcho(const MapSurface& b, const SurfacePatch& b_patch, const std::vector<MapSurface>& surfaces,
@@ -162,16 +176,7 @@ bool IsEcho(const MapSurface& b, const SurfacePatch& b_patch, const std::vector<
     const bool strong = a.kind == b.kind && !a.observations.empty() && b.num_points <= kEchoPoints * a.num_points;
     if (strong && a.plane.n.dot(b.plane.n) >= kEchoFacingCos) stronger.push_back(&tracks[i].patch);
   }
-  if (stronger.empty()) return false;
-  const std::vector<Eigen::Vector3d> cells = b_patch.CellPoints();
-  size_t covered = 0;
-  for (size_t c = 0; c < cells.size(); ++c) {
-    // A wall's plane may graze the next one, of which it has a few cells then: many points elsewhere are no evidence here.
-    covered += std::any_of(stronger.begin(), stronger.end(), [&](const SurfacePatch* a) {
-      return kOwnViews * a->ViewsAbout(cells[c], kEchoDistance_m) >= b_patch.views()[c];
-    });
-  }
-  return static_cast<double>(covered) >= kEchoShare * static_cast<double>(cells.size());
+  return !stronger.empty() && CoveredShare(b_patch, stronger, kEchoDistance_m) >= kEchoShare;
 }
 
 std::vector<bool> EchoCells(const MapSurface& b, const SurfacePatch& b_patch, const std::vector<MapSurface>& surfaces,
@@ -193,26 +198,32 @@ std::vector<bool> EchoCells(const MapSurface& b, const SurfacePatch& b_patch, co
   return echo;
 }
 
+bool IsLargeEnough(const SurfacePatch& patch, const MapperOptions& options) {
+  const double extent_m = options.min_segment_extent_m, area_m2 = kCell_m * kCell_m * static_cast<double>(patch.cells().size());
+  return area_m2 >= extent_m * extent_m && patch.hi().x() - patch.lo().x() + 2 * kEdge_m >= extent_m;
+}
+
 bool TakeCells(const std::vector<bool>& gone, const MapperOptions& options, MapSurface* surface, SurfaceTrack* track) {
-  const auto left = static_cast<double>(std::count(gone.begin(), gone.end(), false));
-  if (left * kCell_m * kCell_m < options.min_segment_extent_m * options.min_segment_extent_m) return false;
   track->patch.Forget(gone);
-  if (track->patch.hi().x() - track->patch.lo().x() + 2 * kEdge_m < options.min_segment_extent_m) return false;
+  if (!IsLargeEnough(track->patch, options)) return false;
   UpdateExtent(*track, surface);
   return true;
 }
 
-void Absorb(const TrackedSurface& b, const std::vector<Keyframe>& keyframes, MapSurface* a, SurfaceTrack* a_track) {
-  std::vector<Observation>& observations = a->observations;
-  for (const Observation& o : b.surface.observations) {
-    const auto at = std::lower_bound(observations.begin(), observations.end(), o.keyframe,
+void AddObservations(const std::vector<Observation>& more, std::vector<Observation>* observations) {
+  for (const Observation& o : more) {
+    const auto at = std::lower_bound(observations->begin(), observations->end(), o.keyframe,
                                      [](const Observation& x, uint32_t keyframe) { return x.keyframe < keyframe; });
-    if (at != observations.end() && at->keyframe == o.keyframe) {
+    if (at != observations->end() && at->keyframe == o.keyframe) {
       at->stats.Add(o.stats);
     } else {
-      observations.insert(at, o);
+      observations->insert(at, o);
     }
   }
+}
+
+void Absorb(const TrackedSurface& b, const std::vector<Keyframe>& keyframes, MapSurface* a, SurfaceTrack* a_track) {
+  AddObservations(b.surface.observations, &a->observations);
   a_track->sum.Add(b.track.sum);
   UpdatePlane(keyframes, a->plane.n, a, a_track);
   a_track->patch.MarkAll(b.track.patch);

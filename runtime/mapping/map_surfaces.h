@@ -34,6 +34,12 @@ struct TrackedSurface {
 // Whether one plane fits the points of both about as well as each one's own does: nowhere near a step, however gently a plane could lean
 // across it.
 [[nodiscard]] bool FitOnePlane(const SurfaceTrack& a, const SurfaceTrack& b, const MapperOptions& options);
+// The same of points alone; `towards`: roughly the normal.
+[[nodiscard]] bool FitOnePlane(const PlaneStats& a, const PlaneStats& b, const Eigen::Vector3d& towards, const MapperOptions& options);
+
+// Share of b's cells of which any of the others has been seen half as often as b or more, on or next to them and no further than that in
+// front or behind.
+[[nodiscard]] double CoveredShare(const SurfacePatch& b, const std::vector<const SurfacePatch*>& by, double distance_m);
 
 // Whether b is none: most of its cells lie close in front of or behind where surfaces that face the same way and have many times as many
 // points, one or several of them, have been seen half as often as b or more. Of two opaque surfaces one hides the other, so nothing real
@@ -47,8 +53,14 @@ struct TrackedSurface {
 [[nodiscard]] std::vector<bool> EchoCells(const MapSurface& b, const SurfacePatch& b_patch, const std::vector<MapSurface>& surfaces,
                                           const std::vector<SurfaceTrack>& tracks, const std::vector<Ball>& balls);
 
+// Whether what was seen of a surface is as much as a segment must have.
+[[nodiscard]] bool IsLargeEnough(const SurfacePatch& patch, const MapperOptions& options);
+
 // Takes cells from a surface; its points and plane stay as they were. False if what is left is too small for one.
 [[nodiscard]] bool TakeCells(const std::vector<bool>& gone, const MapperOptions& options, MapSurface* surface, SurfaceTrack* track);
+
+// Adds observations to others, in the keyframes' order, those of one keyframe as one.
+void AddObservations(const std::vector<Observation>& more, std::vector<Observation>* observations);
 
 // Adds b's observations and cells to a.
 void Absorb(const TrackedSurface& b, const std::vector<Keyframe>& keyframes, MapSurface* a, SurfaceTrack* a_track);

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "runtime/mapping/keyframe_merging.h"
 #include "runtime/mapping/planar_segmentation.h"
 #include "runtime/mapping/pose_graph.h"
 #include "runtime/mapping/segmentation.h"
+#include "runtime/mapping/surface_splitting.h"
 #include "runtime/mapping/view_alignment.h"
 #include "runtime/odometry/planar/planar_scan.h"
 
@@ -215,10 +217,20 @@ void Mapper::AddSegment(const Segment& segment, const Keyframe& keyframe) {
     return;
   }
   if (IsEcho(candidate.surface, candidate.track.patch, graph_.surfaces, tracks_, balls_)) return;
-  candidate.surface.id = static_cast<uint32_t>(graph_.surfaces.size());
-  graph_.surfaces.push_back(std::move(candidate.surface));
-  balls_.push_back(candidate.track.patch.ball());
-  tracks_.push_back(std::move(candidate.track));
+  Put(std::move(candidate), graph_.surfaces.size());
+}
+
+// Into an empty slot, or a new one behind all.
+void Mapper::Put(TrackedSurface surface, size_t slot) {
+  if (slot == graph_.surfaces.size()) {
+    graph_.surfaces.emplace_back();
+    balls_.emplace_back();
+    tracks_.push_back(surface.track);
+  }
+  surface.surface.id = static_cast<uint32_t>(slot);
+  graph_.surfaces[slot] = std::move(surface.surface);
+  balls_[slot] = surface.track.patch.ball();
+  tracks_[slot] = std::move(surface.track);
 }
 
 void Mapper::AbsorbInto(size_t i, const TrackedSurface& other) {
@@ -240,6 +252,38 @@ void Mapper::Empty(size_t i) {
   balls_[i] = {};
 }
 
+// Each part may split again. Parts go where nothing is, so that splitting and merging in turn takes no memory.
+std::vector<SurfaceSplit> Mapper::SplitSurfaces() {
+  std::vector<SurfaceSplit> out;
+  std::vector<MapSurface>& surfaces = graph_.surfaces;
+  std::vector<size_t> queue(surfaces.size());
+  std::iota(queue.rbegin(), queue.rend(), size_t{0});
+  while (!queue.empty()) {
+    const size_t i = queue.back();
+    std::optional<TrackedSurface> part = SplitOff(graph_.keyframes, options_, &surfaces[i], &tracks_[i]);
+    if (!part) {
+      queue.pop_back();
+      continue;
+    }
+    balls_[i] = tracks_[i].patch.ball();
+    const size_t slot = static_cast<size_t>(
+        std::find_if(surfaces.begin(), surfaces.end(), [](const MapSurface& s) { return s.observations.empty(); }) - surfaces.begin());
+    Put(std::move(*part), slot);
+    queue.push_back(slot);
+    out.push_back({static_cast<uint32_t>(i), static_cast<uint32_t>(slot)});
+  }
+  return out;
+}
+
+// Whether two surfaces are one. `settled` as in OnPosesChanged().
+bool Mapper::AreOne(size_t i, size_t k, bool settled) const {
+  const std::vector<MapSurface>& surfaces = graph_.surfaces;
+  const bool directed = !settled || (surfaces[i].observations.size() > 1 && surfaces[k].observations.size() > 1);
+  return !std::isinf(SurfaceDistance(tracks_[i].patch, tracks_[k].patch, options_, directed)) &&
+         FitOnePlane(tracks_[i], tracks_[k], options_) &&
+         (graph_.planar || !LieOnTwoPlanes(surfaces[i], surfaces[k], graph_.keyframes, options_));
+}
+
 // The older of two surfaces stays; the younger keeps its slot, empty. `settled` as in OnPosesChanged().
 void Mapper::MergeDuplicates(bool settled) {
   std::vector<MapSurface>& surfaces = graph_.surfaces;
@@ -247,10 +291,7 @@ void Mapper::MergeDuplicates(bool settled) {
     for (size_t k = i + 1; k < surfaces.size(); ++k) {
       if (surfaces[i].observations.empty()) break;
       if (surfaces[k].observations.empty() || !MayTouch(balls_[i], balls_[k], options_)) continue;
-      const bool directed = !settled || (surfaces[i].observations.size() > 1 && surfaces[k].observations.size() > 1);
-      if (std::isinf(SurfaceDistance(tracks_[i].patch, tracks_[k].patch, options_, directed)) ||
-          !FitOnePlane(tracks_[i], tracks_[k], options_))
-        continue;
+      if (!AreOne(i, k, settled)) continue;
       AbsorbInto(i, {std::move(surfaces[k]), std::move(tracks_[k])});
       Empty(k);
       k = i;  // the grown surface may reach others
@@ -277,18 +318,21 @@ void Mapper::DropEchoCells() {
   }
 }
 
-void Mapper::OnPosesChanged(bool settled) {
+std::vector<SurfaceSplit> Mapper::OnPosesChanged(bool settled) {
   for (Keyframe& keyframe : graph_.keyframes) {
     if (keyframe.merged) keyframe.T_map_kf = graph_.keyframes[keyframe.merged->into].T_map_kf * keyframe.merged->T_into_kf;
   }
   for (size_t i = 0; i < graph_.surfaces.size(); ++i) {
     if (!graph_.surfaces[i].observations.empty()) RecomputeSurface(i);
   }
+  std::vector<SurfaceSplit> splits;
+  if (!graph_.planar) splits = SplitSurfaces();
   MergeDuplicates(settled && !graph_.planar);
   if (settled && !graph_.planar) DropEchoCells();
-  if (graph_.keyframes.empty()) return;
+  if (graph_.keyframes.empty()) return splits;
   const Keyframe& newest = graph_.keyframes.back();
   T_map_odom_ = newest.T_map_kf * newest.T_odom_kf.inverse();
+  return splits;
 }
 
 }  // namespace plumb::runtime

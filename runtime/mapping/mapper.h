@@ -14,6 +14,11 @@
 
 namespace plumb::runtime {
 
+// Of SGraph::surfaces: `from` keeps its slot and the larger part, the other is in `part`, which was empty or is new.
+struct SurfaceSplit {
+  uint32_t from = 0, part = 0;
+};
+
 // Scans are gathered in a window that opens at a keyframe's pose and closes when the robot has moved on; the closed window is the keyframe.
 // A robot that stands still makes no further keyframes, one that comes by again makes none that last (keyframe_merging.h). So memory grows
 // with the area driven through (points, 130 bytes per surface seen from a keyframe, cells), and by 0.4 kB per keyframe with time.
@@ -39,11 +44,12 @@ class Mapper {
   [[nodiscard]] const SGraph& graph() const { return graph_; }
   [[nodiscard]] SGraph& mutable_graph() { return graph_; }
 
-  // After keyframe poses in mutable_graph() were changed: recomputes surface planes and extents, merges what now coincides,
-  // and takes T_map_odom from the newest keyframe. `settled`: the poses are those of the last solve, and nothing more is to be seen of what
-  // was seen from one keyframe alone; then that is merged whatever its direction, and cells that are echoes are taken from their surfaces
-  // for good. O(observations + surfaces^2).
-  void OnPosesChanged(bool settled = false);
+  // After keyframe poses in mutable_graph() were changed: recomputes surface planes and extents, splits what no longer lies on one plane,
+  // merges what now coincides, and takes T_map_odom from the newest keyframe. Maps of planar lasers are not split. `settled`: the poses are
+  // those of the last solve, and nothing more is to be seen of what was seen from one keyframe alone; then that is merged whatever its
+  // direction, and cells that are echoes are taken from their surfaces for good. O(observations log observations + surfaces^2). Returns
+  // what was split, in that order.
+  std::vector<SurfaceSplit> OnPosesChanged(bool settled = false);
 
  private:
   [[nodiscard]] bool WindowIsFull(double stamp_s, const Eigen::Isometry3d& T_odom_lidar) const;
@@ -53,7 +59,10 @@ class Mapper {
   void AddSegment(const Segment& segment, const Keyframe& keyframe);
   void AbsorbInto(size_t i, const TrackedSurface& other);
   void RecomputeSurface(size_t i);
+  void Put(TrackedSurface surface, size_t slot);
   void Empty(size_t i);
+  [[nodiscard]] bool AreOne(size_t i, size_t k, bool settled) const;
+  std::vector<SurfaceSplit> SplitSurfaces();
   void ClosePlanarLoops(const KeyframeWindow& window);
   void CloseSpatialLoops();
   void MergeDuplicates(bool settled = false);

@@ -132,7 +132,7 @@ struct SGraph {
   std::vector<Keyframe> keyframes;   // ids are stable; merged ones keep their slot, without points
   std::vector<PoseEdge> edges;       // between keyframes, of their levelled frames; by a planar laser: odometry's steps and the loops
   std::vector<SpatialEdge> loops;    // between keyframes, by any other sensor
-  std::vector<MapSurface> surfaces;  // ids are stable; merged ones keep their slot with no observations
+  std::vector<MapSurface> surfaces;  // ids are stable; merged ones keep their slot, empty or with a part split off another
 };
 
 }  // namespace plumb::runtime

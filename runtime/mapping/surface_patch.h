@@ -55,6 +55,7 @@ class SurfacePatch {
   [[nodiscard]] uint32_t ViewsAt(const Eigen::Vector3d& p, double distance_m) const;
   // The same of the cell with most views of those on or next to which p lies.
   [[nodiscard]] uint32_t ViewsAbout(const Eigen::Vector3d& p, double distance_m) const;
+  [[nodiscard]] double cell_height_m() const { return cell_height_m_; }
   [[nodiscard]] double area_m2() const;
   // How far outside the bounds, in either coordinate, a point may have views about it: less than this.
   [[nodiscard]] static double CoverMargin_m();

@@ -44,7 +44,7 @@ struct WallPresence {
 
 // One per plan wall. A wall is missing if what was seen passes its place, and every place where it may stand displaced. `estimate` says
 // where the map lies and which walls are known to stand: what is seen on those is not in front of any other. No wall is missing in a map of
-// a planar laser. O(keyframe points * walls passed). Deterministic.
+// a planar laser. O(keyframe points * walls passed), and 117 times that for points seen near walls that pass for missing. Deterministic.
 [[nodiscard]] std::vector<WallPresence> JudgePresence(const SGraph& map, const AGraph& plan, const JointResult& estimate,
                                                       const PresenceOptions& options = {});
 

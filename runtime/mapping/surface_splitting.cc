@@ -261,6 +261,10 @@ TrackedSurface PartOf(const MapSurface& from, const SurfacePatch& patch, const S
 }  // namespace
 
 bool LieOnTwoPlanes(const MapSurface& a, const MapSurface& b, const std::vector<Keyframe>& keyframes, const MapperOptions& options) {
+  // A surface that was seen at two distances in one place does not split; that is no reason to keep others from it.
+  for (const MapSurface* s : {&a, &b}) {
+    if (FindSplit(ViewsOf(s->observations, keyframes), a.plane.n, options)) return false;
+  }
   std::vector<Observation> both = a.observations;
   AddObservations(b.observations, &both);
   return FindSplit(ViewsOf(both, keyframes), a.plane.n, options).has_value();

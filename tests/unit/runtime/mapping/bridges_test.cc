@@ -43,6 +43,18 @@ TEST(DropBridges, KeepsAWallThatTurnsAwayFromItsNeighbour) {
   EXPECT_EQ(Left(Wall(4, 5, 4, 0.052, 40)), 2u) << "1 m built 3 degrees off";
 }
 
+// Wherever the frame's origin is.
+TEST(DropBridges, KeepsTheShortestWallsBeyondACorner) {
+  for (double length_m : {0.4, 0.5, 0.6}) {
+    for (double shift_m = 0; shift_m < 0.5; shift_m += 0.05) {
+      std::vector<Segment> segments = {Wall(shift_m + 4, shift_m + 4 + length_m, shift_m + 4, 0.1, 40),
+                                       Wall(shift_m, shift_m + 4, 0, 0, 80)};
+      DropBridges(&segments);
+      EXPECT_EQ(segments.size(), 2u) << length_m << " m, " << shift_m;
+    }
+  }
+}
+
 TEST(DropBridges, KeepsADoorLeafBeforeItsWall) { EXPECT_EQ(Left(Wall(1.5, 2.4, 1.5 - 0.05 / std::tan(0.04), 0.04, 40)), 2u); }
 
 TEST(DropBridges, KeepsWhatGoesOnStraight) { EXPECT_EQ(Left(Wall(3.8, 4.3, 3.9, 0.01, 40)), 2u); }

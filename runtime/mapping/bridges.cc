@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "runtime/mapping/plane_fit.h"
+#include "runtime/odometry/voxel_index.h"
 
 namespace plumb::runtime {
 namespace {
@@ -11,12 +12,22 @@ namespace {
 constexpr double kMinLeanCos = 0.99939, kMaxLeanCos = 0.94;  // 2 and 20 degrees
 constexpr double kStart_m = 0.01;                            // a bridge starts within this of the larger one's plane
 constexpr double kBandSigmas = 3.0, kMinSigma_m = 0.01;      // of the larger one's points about its plane
-constexpr float kNear_m = 0.25F;                             // between a bridge's cells and its
+constexpr double kNear_m = 0.25;                             // between its cells and those of a bridge, or up to twice that
 constexpr double kMinShare = 0.75;                           // of a bridge's cells
 
-bool IsNear(const Eigen::Vector3f& cell, const std::vector<Eigen::Vector3f>& cells) {
-  return std::any_of(cells.begin(), cells.end(), [&](const auto& other) { return (other - cell).squaredNorm() < kNear_m * kNear_m; });
-}
+class Neighbourhood {
+ public:
+  explicit Neighbourhood(const std::vector<Eigen::Vector3f>& cells) {
+    for (const Eigen::Vector3f& cell : cells) {
+      for (int k = 0; k < 27; ++k) voxels_.Insert(VoxelKey(At(cell) + Eigen::Vector3d(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1)));
+    }
+  }
+  [[nodiscard]] bool Has(const Eigen::Vector3f& cell) const { return voxels_.Find(VoxelKey(At(cell))) != VoxelIndex::kNone; }
+
+ private:
+  static Eigen::Vector3d At(const Eigen::Vector3f& cell) { return cell.cast<double>() / kNear_m; }
+  VoxelIndex voxels_;
+};
 
 bool Bridges(const Segment& small, const Segment& large) {
   if (small.kind != large.kind || small.stats.count() >= large.stats.count()) return false;
@@ -27,8 +38,9 @@ bool Bridges(const Segment& small, const Segment& large) {
   const auto least =
       std::min_element(small.cells.begin(), small.cells.end(), [&](const auto& a, const auto& b) { return off_m(a) < off_m(b); });
   if (least == small.cells.end() || off_m(*least) > kStart_m) return false;
-  const auto within = std::count_if(small.cells.begin(), small.cells.end(),
-                                    [&](const auto& cell) { return off_m(cell) <= band_m && IsNear(cell, large.cells); });
+  const Neighbourhood near(large.cells);
+  const auto within =
+      std::count_if(small.cells.begin(), small.cells.end(), [&](const auto& cell) { return off_m(cell) <= band_m && near.Has(cell); });
   return static_cast<double>(within) >= kMinShare * static_cast<double>(small.cells.size());
 }
 

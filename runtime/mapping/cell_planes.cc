@@ -29,7 +29,7 @@ constexpr double kMinAcross_m = 0.2;       // height of a wall segment
 constexpr double kSureArea_m2 = 1.0, kMinFill = 0.25;  // a smaller segment whose cells are strewn over a larger rectangle is noise
 constexpr double kMinCellPoints = 2;
 constexpr double kMaxContested = 0.2;      // of a cell's points
-constexpr double kMinSure = 0.5, kMinInner = 0.6;  // of a segment's cells
+constexpr double kMinSure = 0.5;           // of a segment's cells
 constexpr double kMinCellShare = 0.25;     // of the median cell's points: less is noise beyond an edge
 
 struct Cell {
@@ -181,13 +181,13 @@ std::vector<bool> Inner(const std::vector<Cell>& cells, const PlaneAxes& axes, d
 
 // Sum over the inner cells whose points are no other plane's: at a corner or a step, the noise of each strays into the other's,
 // one-sidedly. Where these are few, over all that are no other plane's, or over the inner ones, or over all.
-PlaneStats SureSum(const std::vector<Cell>& cells, SurfaceKind kind, const PlaneAxes& axes, double min_count) {
-  const std::vector<bool> inner = kind == SurfaceKind::kWall ? Inner(cells, axes, min_count) : std::vector<bool>(cells.size(), true);
+PlaneStats SureSum(const std::vector<Cell>& cells, const PlaneAxes& axes, double min_count) {
+  const std::vector<bool> inner = Inner(cells, axes, min_count);
   const auto is_inner = [&](const Cell& cell) { return inner[static_cast<size_t>(&cell - cells.data())]; };
   const auto is_own = [](const Cell& cell) { return cell.stats->contested <= kMaxContested * cell.stats->count(); };
   for (const auto& [only_inner, only_own] : {std::pair{true, true}, {false, true}, {true, false}}) {
     const CellSum sum = SumOf(cells, [&](const Cell& cell) { return (!only_inner || is_inner(cell)) && (!only_own || is_own(cell)); });
-    if (static_cast<double>(sum.cells) >= (only_inner ? kMinInner : kMinSure) * static_cast<double>(cells.size())) return sum.stats;
+    if (static_cast<double>(sum.cells) >= kMinSure * static_cast<double>(cells.size())) return sum.stats;
   }
   return SumOf(cells, [](const Cell&) { return true; }).stats;
 }
@@ -197,8 +197,8 @@ std::optional<Segment> SegmentOf(const std::vector<Cell>& cells, SurfaceKind kin
                                  double min_count, const MapperOptions& options) {
   Segment segment;
   segment.kind = kind;
-  if (SumOf(cells, [](const Cell&) { return true; }).stats.count() < options.min_segment_points) return std::nullopt;
-  segment.stats = SureSum(cells, kind, axes, min_count);
+  segment.stats = SureSum(cells, axes, min_count);
+  if (segment.stats.count() < options.min_segment_points) return std::nullopt;
   segment.plane = FitPlane(segment.stats, normal).plane;
   Eigen::Vector2d lo = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity()), hi = -lo;
   for (const Cell& cell : cells) {

@@ -1,6 +1,6 @@
 // How well the S-Graph maps a building, with no plan given to it: a drive simulated in each plan, then odometry, mapping and the final
 // polish.
-//   map_benchmark [--seconds S] [--noise M] [--clutter N] [--seed N] [--drop S] [--name] PLAN.agraph...
+//   map_benchmark [--seconds S] [--noise M] [--clutter N] [--seed N] [--deviate SHARE] [--drop S] [--name] PLAN.agraph...
 // --drop: so many seconds of scans are missing out of every 15. --name: says of which walls something is to be said (map_walls.h).
 // One row for each plan. ATE: of the scans' positions, rms, with the first two seconds laid on the truth; up: of their heights alone.
 // Walls: the plan's plane surfaces of which 20 scans or more have seen over 1 m, as built, against the map: found if half of what was seen
@@ -160,22 +160,24 @@ double Mean(const std::vector<double>& values) {
 }
 
 void PrintHead() {
-  fmt::print("{:<32} {:>6} {:>7} {:>8} {:>8} {:>8} {:>8} {:>12} {:>11} {:>6} {:>9} {:>9} {:>10} {:>9} {:>9} {:>8} {:>8} {:>8} {:>8}\n",
-             "plan", "s", "m", "odo cm", "ATE cm", "up cm", "best cm", "loop cm", "walls", "twice", "off mm", "95% mm", "from start",
-             "turn deg", "95% deg", "odo ms", "p99 ms", "map ms", "polish s");
+  fmt::print(
+      "{:<32} {:>6} {:>7} {:>8} {:>8} {:>8} {:>8} {:>12} {:>11} {:>6} {:>7} {:>9} {:>9} {:>10} {:>9} {:>9} {:>9} {:>8} {:>8} {:>8} {:>8}\n",
+      "plan", "s", "m", "odo cm", "ATE cm", "up cm", "best cm", "loop cm", "walls", "twice", "phantom", "off mm", "95% mm", "from start",
+      "turn deg", "95% deg", "tilt 95%", "odo ms", "p99 ms", "map ms", "polish s");
 }
 
 void PrintRow(const std::string& name, const tools::SimulateSummary& simulated, double odometry_m, Ate map, double best_m,
               std::pair<double, double> loop_m, const WallScore& walls, const WallScore& from_start, const Driven& driven,
               double polish_ms) {
   fmt::print(
-      "{:<32} {:>6.0f} {:>7.1f} {:>8.2f} {:>8.2f} {:>8.2f} {:>8.2f} {:>12} {:>11} {:>6} {:>9.1f} {:>9.1f} {:>10.1f} {:>9.3f} "
-      "{:>9.3f} {:>8.2f} {:>8.2f} {:>8.2f} {:>8.2f}\n",
+      "{:<32} {:>6.0f} {:>7.1f} {:>8.2f} {:>8.2f} {:>8.2f} {:>8.2f} {:>12} {:>11} {:>6} {:>7} {:>9.1f} {:>9.1f} {:>10.1f} {:>9.3f} "
+      "{:>9.3f} {:>9.3f} {:>8.2f} {:>8.2f} {:>8.2f} {:>8.2f}\n",
       name, simulated.duration_s, simulated.path_m, 100 * odometry_m, 100 * map.all_m, 100 * map.up_m, 100 * best_m,
       fmt::format("{:.2f}/{:.2f}", 100 * loop_m.first, 100 * loop_m.second), fmt::format("{}/{}", walls.found, walls.walls), walls.twice,
-      1000 * Percentile(walls.offsets_m, 0.5), 1000 * Percentile(walls.offsets_m, 0.95), 1000 * Percentile(from_start.offsets_m, 0.95),
-      Percentile(walls.turns_deg, 0.5), Percentile(walls.turns_deg, 0.95), Mean(driven.odometry_ms), Percentile(driven.odometry_ms, 0.99),
-      Mean(driven.mapping_ms), polish_ms / 1000);
+      walls.phantoms, 1000 * Percentile(walls.offsets_m, 0.5), 1000 * Percentile(walls.offsets_m, 0.95),
+      1000 * Percentile(from_start.offsets_m, 0.95), Percentile(walls.turns_deg, 0.5), Percentile(walls.turns_deg, 0.95),
+      Percentile(walls.tilts_deg, 0.95), Mean(driven.odometry_ms), Percentile(driven.odometry_ms, 0.99), Mean(driven.mapping_ms),
+      polish_ms / 1000);
   std::fflush(stdout);  // beside what is said of single walls
 }
 
@@ -238,6 +240,7 @@ int main(int argc, char** argv) {
     if (argument == "--drop") drop_s = value;
     if (argument == "--noise") options.noise_m = value;
     if (argument == "--clutter") options.clutter = static_cast<int>(value);
+    if (argument == "--deviate") options.deviate_ratio = value;
     if (argument == "--seed") options.seed = static_cast<uint64_t>(value);
   }
   const std::filesystem::path folder = std::filesystem::temp_directory_path() / fmt::format("plumb-map-benchmark-{}", getpid());

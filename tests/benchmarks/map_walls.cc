@@ -23,7 +23,8 @@ namespace {
 
 constexpr double kMinLength_m = 1.0, kSameDirection_rad = 0.2, kSamePlane_m = 0.15, kMinShare = 0.5;
 constexpr double kTwice_m = 0.1, kTwiceShare = 0.3;
-constexpr double kReal_m = 0.015;    // from a surface of the map to the face of the house that it is
+constexpr double kReal_m = 0.015;  // from a surface of the map to the face of the house that it is
+constexpr double kPhantom_m = 0.025, kPhantomShare = 0.5;
 constexpr double kOneFace_m = 0.01;  // two surfaces of the map whose faces are closer are one
 constexpr uint32_t kMinScans = 20;
 constexpr double kSquare_m = 0.25;  // of a built face, seen by a scan that has kMinSquarePoints returns from it
@@ -36,6 +37,8 @@ constexpr double kDegrees = 57.29578;
 double Turn_rad(const Eigen::Vector3d& u, const Eigen::Vector3d& v) {
   return std::atan2(u.x() * v.y() - u.y() * v.x(), u.head<2>().dot(v.head<2>()));
 }
+
+double TiltOf_deg(const MappedFace& m) { return std::asin(m.plane.n.z()) * kDegrees; }
 
 // How far the map's surface stands before the built face at a point of that.
 double OffsetAt_m(const BuiltFace& b, const MappedFace& m, const Eigen::Vector3d& p) {
@@ -73,12 +76,13 @@ void Name(const char* what, const BuiltFace& b, const std::vector<MappedFace>& m
       last = std::max(last, square % b.columns + 1);
     }
     const auto seen = std::count_if(covered.begin(), covered.end(), [&](size_t square) { return b.Seen(square); });
-    fmt::print(
-        stderr,
-        "    map: {:.2f} m to {:.2f} m along, {:.1f} mm in front, {:.2f} deg, {:.2f} m to {:.2f} m high, {} of {} squares, {} views, "
-        "{} points\n",
-        kSquare_m * static_cast<double>(first), kSquare_m * static_cast<double>(last), 1000 * OffsetAt_m(b, m, middle),
-        Turn_rad(b.normal(), m.plane.n) * kDegrees, m.z_min_m, m.z_max_m, seen, covered.size(), m.views, static_cast<int64_t>(m.points));
+    fmt::print(stderr,
+               "    map: {:.2f} m to {:.2f} m along, {:.1f} mm in front, {:.2f} deg, tilt {:.2f}, {:.2f} m to {:.2f} m high, {} of {} "
+               "squares, {} views, "
+               "{} points\n",
+               kSquare_m * static_cast<double>(first), kSquare_m * static_cast<double>(last), 1000 * OffsetAt_m(b, m, middle),
+               Turn_rad(b.normal(), m.plane.n) * kDegrees, TiltOf_deg(m), m.z_min_m, m.z_max_m, seen, covered.size(), m.views,
+               static_cast<int64_t>(m.points));
   }
 }
 
@@ -107,6 +111,18 @@ bool IsTwice(const MappedFace& a, const MappedFace& b, const BuiltHouse& house) 
   return DoubledShare(a, b, house) >= kTwiceShare || DoubledShare(b, a, house) >= kTwiceShare;
 }
 
+// Share of its cells where the house has no such face.
+double PhantomShare(const MappedFace& m, const BuiltHouse& house) {
+  const auto nowhere =
+      std::count_if(m.cells.begin(), m.cells.end(), [&](const Eigen::Vector3d& p) { return !house.FaceNear_m(p, m.plane.n, kPhantom_m); });
+  return m.cells.empty() ? 0 : static_cast<double>(nowhere) / static_cast<double>(m.cells.size());
+}
+
+void NameMapped(const char* what, const MappedFace& f) {
+  fmt::print(stderr, "  {}: ({:.2f} {:.2f}) to ({:.2f} {:.2f}) from {:.2f} m to {:.2f} m high, {} views, {} points\n", what, f.start.x(),
+             f.start.y(), f.end.x(), f.end.y(), f.z_min_m, f.z_max_m, f.views, static_cast<int64_t>(f.points));
+}
+
 // The wall's score, and its line on stderr.
 void ScoreWall(const BuiltFace& b, const std::vector<MappedFace>& mapped, bool name, WallScore& out) {
   ++out.walls;
@@ -129,7 +145,9 @@ void ScoreWall(const BuiltFace& b, const std::vector<MappedFace>& mapped, bool n
   for (const size_t square : best_squares) middle += CenterOf(b, square) / static_cast<double>(best_squares.size());
   out.offsets_m.push_back(std::abs(OffsetAt_m(b, *best, middle)));
   out.turns_deg.push_back(std::abs(Turn_rad(b.normal(), best->plane.n)) * kDegrees);
-  if (name && (out.offsets_m.back() > kNamedOff_m || out.turns_deg.back() > kNamedTurn_deg)) Name("off", b, mapped);
+  out.tilts_deg.push_back(std::abs(TiltOf_deg(*best)));
+  if (name && (out.offsets_m.back() > kNamedOff_m || std::max(out.turns_deg.back(), out.tilts_deg.back()) > kNamedTurn_deg))
+    Name("off", b, mapped);
 }
 
 }  // namespace
@@ -263,11 +281,13 @@ WallScore ScoreWalls(const std::vector<BuiltFace>& built, const std::vector<Mapp
       if (!IsTwice(*walls[i], *walls[j], house)) continue;
       ++out.twice;
       if (!name) continue;
-      for (const MappedFace* f : {walls[i], walls[j]}) {
-        fmt::print(stderr, "  twice: ({:.2f} {:.2f}) to ({:.2f} {:.2f}) from {:.2f} m to {:.2f} m high, {} views, {} points\n",
-                   f->start.x(), f->start.y(), f->end.x(), f->end.y(), f->z_min_m, f->z_max_m, f->views, static_cast<int64_t>(f->points));
-      }
+      for (const MappedFace* f : {walls[i], walls[j]}) NameMapped("twice", *f);
     }
+  }
+  for (const MappedFace& m : mapped) {
+    if (PhantomShare(m, house) < kPhantomShare) continue;
+    ++out.phantoms;
+    if (name) NameMapped("phantom", m);
   }
   return out;
 }

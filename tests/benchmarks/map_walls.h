@@ -67,14 +67,15 @@ void CountSeen(const runtime::Scan& deskewed, const Eigen::Isometry3d& T_plan_li
 [[nodiscard]] std::vector<MappedFace> MappedFaces(const runtime::SGraph& map, const Eigen::Isometry3d& T_plan_map);
 
 struct WallScore {
-  int walls = 0, found = 0, twice = 0;
-  std::vector<double> offsets_m, turns_deg;  // absolute
+  int walls = 0, found = 0, twice = 0, phantoms = 0;
+  std::vector<double> offsets_m, turns_deg, tilts_deg;  // absolute
 };
 
-// Found: half of its seen length is in the map. Offset and turn are those of the surface of the map that has most of it, where it has it.
-// Twice: two surfaces of the map within 10 cm of each other where the house has one, or where it has none at one of them: a sill before
-// its wall is a surface of its own. `name`: on stderr all walls that are missed, twice, or off by more than 1 cm or 0.2 degrees, with what
-// the map has there.
+// Found: half of its seen length is in the map. Offset, turn and tilt are those of the surface of the map that has most of it, where it has
+// it. Twice: two surfaces of the map within 10 cm of each other where the house has one, or where it has none at one of them: a sill before
+// its wall is a surface of its own. Phantoms: surfaces of the map, furniture included, half of which or more lie where the house has no
+// face so directed. `name`: on stderr all walls that are missed, twice, phantoms, or off by more than 1 cm or 0.2 degrees, with what the
+// map has there.
 [[nodiscard]] WallScore ScoreWalls(const std::vector<BuiltFace>& built, const std::vector<MappedFace>& mapped, const BuiltHouse& house,
                                    bool name);
 

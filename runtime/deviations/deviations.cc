@@ -2,104 +2,15 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 #include "runtime/coupling/wall_frame.h"
 #include "runtime/deviations/room_deviation.h"
+#include "runtime/deviations/wall_verdicts.h"
 
 namespace plumb::runtime {
 namespace {
-
-// P(chi-square with 2 dof > that of the wall's deviation).
-double PValue(const WallEstimate& wall, const DeviationOptions& options) {
-  Eigen::Matrix2d s = wall.evidence.covariance;
-  s(0, 0) += options.tolerance_offset_m * options.tolerance_offset_m;
-  s(1, 1) += options.tolerance_yaw_rad * options.tolerance_yaw_rad;
-  const Eigen::Vector2d& e = wall.evidence.measured;
-  return std::exp(-0.5 * e.dot(s.inverse() * e));
-}
-
-// Of a displacement with that variance (alpha 0.1 %, power 80 %, one degree of freedom).
-double MinimalDetectable_m(double variance_m2) {
-  constexpr double kNoncentrality = 17.1;
-  return std::sqrt(kNoncentrality * variance_m2);
-}
-
-double TestVariance_m2(const WallEstimate& wall, const Eigen::Vector2d& gain, const DeviationOptions& options) {
-  return gain.dot(wall.evidence.covariance * gain) + wall.place_sigma_m * wall.place_sigma_m +
-         options.tolerance_offset_m * options.tolerance_offset_m;
-}
-
-// What the evidence says where it says it best, along the wall: far from where a wall was seen its offset hangs on its turn.
-struct BestKnown {
-  double offset_m = 0;
-  Eigen::Vector2d gain = Eigen::Vector2d::UnitX();  // of (offset_m, yaw_rad)
-};
-BestKnown WhereKnownBest(const WallEvidence& evidence) {
-  BestKnown out;
-  if (evidence.covariance(1, 1) > 0) out.gain.y() = -evidence.covariance(0, 1) / evidence.covariance(1, 1);
-  out.offset_m = out.gain.dot(evidence.measured);
-  return out;
-}
-
-// What a room has of boxes stands in front of its walls: behind the planned face it would not be seen if the wall stood there.
-bool StandsBehind(const AGraph& plan, const std::vector<WallFrame>& frames, const WallEstimate& wall, const BestKnown& best,
-                  const DeviationOptions& options) {
-  if (wall.seen.empty()) return false;
-  const auto most = std::max_element(wall.seen.begin(), wall.seen.end(),
-                                     [](const SeenSurface& a, const SeenSurface& b) { return a.observed_m2 < b.observed_m2; });
-  const double side = MakeFace(frames[wall.wall.index()], plan.surfaces[most->surface.index()]).side();
-  return side * best.offset_m < -2 * std::sqrt(TestVariance_m2(wall, best.gain, options));
-}
-
-// Which hypotheses are rejected at the given false discovery rate.
-std::vector<bool> BenjaminiHochberg(const std::vector<double>& p_values, double rate) {
-  std::vector<double> sorted = p_values;
-  std::sort(sorted.begin(), sorted.end());
-  double threshold = -1;
-  for (size_t k = 0; k < sorted.size(); ++k) {
-    if (sorted[k] <= rate * static_cast<double>(k + 1) / static_cast<double>(sorted.size())) threshold = sorted[k];
-  }
-  std::vector<bool> rejected;
-  for (double p : p_values) rejected.push_back(p <= threshold);
-  return rejected;
-}
-
-std::vector<SurfaceStatus> WallStatuses(const AGraph& plan, const std::vector<WallFrame>& frames, const JointResult& estimate,
-                                        const DeviationOptions& options) {
-  std::vector<SurfaceStatus> statuses(estimate.walls.size(), SurfaceStatus::kUnobserved);
-  if (!estimate.covariances_exact) return statuses;  // without them nothing can be tested, and untested is not "as planned"
-  std::vector<size_t> observed;
-  std::vector<double> p_values;
-  for (size_t i = 0; i < estimate.walls.size(); ++i) {
-    if (estimate.walls[i].observed_m2 < options.min_observed_m2) continue;
-    observed.push_back(i);
-    p_values.push_back(PValue(estimate.walls[i], options));
-  }
-  const std::vector<bool> rejected = BenjaminiHochberg(p_values, options.false_discovery_rate);
-  for (size_t k = 0; k < observed.size(); ++k) {
-    const WallEstimate& w = estimate.walls[observed[k]];
-    const bool large = std::abs(w.deviation.offset_m) >= options.min_offset_m || std::abs(w.deviation.yaw_rad) >= options.min_yaw_rad;
-    const double variance_m2 = TestVariance_m2(w, Eigen::Vector2d::UnitX(), options), two_sigma_m = 2 * std::sqrt(variance_m2);
-    const double measured_m = std::abs(w.evidence.measured.x());
-    const bool testable = MinimalDetectable_m(variance_m2) <= options.max_mdb_m;
-    // A turn read off a short piece of a wall that may stand anywhere is no finding.
-    const BestKnown best = WhereKnownBest(w.evidence);
-    const bool placed = testable || std::abs(best.offset_m) > 2 * std::sqrt(TestVariance_m2(w, best.gain, options));
-    const bool a_box = std::abs(w.deviation.yaw_rad) >= options.turned_rad && w.observed_m2 < options.min_turned_m2 &&
-                       w.span_m < options.min_turned_m && !StandsBehind(plan, frames, w, best, options);
-    // Nor is one that stands farther off than it was seen long: its like stands anywhere.
-    const bool known_again = w.span_m >= std::abs(best.offset_m);
-    const bool deviated = rejected[k] && large && w.p_deviated >= options.min_p_deviated && placed && !a_box && known_again;
-    // Nor is a wall as planned whose evidence alone says that it is not, or that is more likely not to be.
-    const bool tested = testable && measured_m + two_sigma_m <= options.max_undecided_m && !(rejected[k] && large) &&
-                        w.p_deviated <= options.max_p_as_planned;
-    statuses[observed[k]] = deviated ? SurfaceStatus::kDeviated : tested ? SurfaceStatus::kAsPlanned : SurfaceStatus::kUnobserved;
-  }
-  return statuses;
-}
 
 SurfaceDeviation DeviationOfFace(const Face& face, const WallEstimate& wall, const DeviationOptions& options) {
   const double parameters[kNumWallParameters] = {wall.deviation.offset_m, wall.deviation.yaw_rad, wall.tilt_rad, wall.thickness_error_m};
@@ -121,13 +32,13 @@ SurfaceDeviation DeviationOfFace(const Face& face, const WallEstimate& wall, con
 }
 
 // Doorways that deviate from where a wall would have them that is not believed itself.
-void LeaveOutDoubtful(const AGraph& plan, const std::vector<const WallEstimate*>& by_wall, const std::vector<SurfaceStatus>& statuses,
+void LeaveOutDoubtful(const AGraph& plan, const std::vector<const WallEstimate*>& by_wall, const std::vector<WallVerdict>& verdicts,
                       const JointResult& estimate, std::vector<DoorwayDeviation>& doorways) {
   for (DoorwayDeviation& d : doorways) {
     const WallId wall = plan.doorways[d.doorway.index()].wall;
     if (d.status != DoorwayStatus::kDeviated || !wall.valid() || !by_wall[wall.index()]) continue;
     const auto at = static_cast<size_t>(by_wall[wall.index()] - estimate.walls.data());
-    if (statuses[at] == SurfaceStatus::kUnobserved) d = {.doorway = d.doorway};
+    if (verdicts[at].status == SurfaceStatus::kUnobserved) d = {.doorway = d.doorway};
   }
 }
 
@@ -140,6 +51,7 @@ void MarkMissing(const AGraph& plan, const WallChanges& changes, DeviationReport
       report.surfaces[i] = {};
       report.surfaces[i].surface = SurfaceId(i);
       report.surfaces[i].status = SurfaceStatus::kMissing;
+      report.surfaces[i].unjudged = Unjudged::kNone;
     }
     for (const FacePresence& face : changes.presence[w].faces) {
       report.surfaces[face.surface.index()].observed_m2 = face.open_m2 + face.closed_m2;
@@ -163,6 +75,28 @@ std::string CountsText(const AGraph& plan, const DeviationReport& report) {
   return text + ".";
 }
 
+// "Not judged: 3 walls of which too little was seen, 1 wall that ...", of walls that were seen, by the gravest of their faces.
+std::string UnjudgedText(const AGraph& plan, const DeviationReport& report, const DeviationOptions& options) {
+  const std::pair<Unjudged, std::string> reasons[] = {
+      {Unjudged::kUncertain, fmt::format("that may be {:.0f} cm off by what was seen", 100 * options.max_undecided_m)},
+      {Unjudged::kUndecided, "probably off, but not surely"},
+      {Unjudged::kSeenTooLittle, fmt::format("seen on less than {:.1f} m2", options.min_observed_m2)},
+      {Unjudged::kMayBeFurniture, "where what was seen may be furniture"},
+      {Unjudged::kOtherShape, "where what was seen is another shape of the plan"},
+      {Unjudged::kNoCovariance, "with nothing to tell how sure they are"}};
+  std::vector<Unjudged> why(plan.walls.size(), Unjudged::kNone);
+  for (const SurfaceDeviation& d : report.surfaces) {
+    const WallId wall = plan.surfaces[d.surface.index()].wall;
+    if (wall.valid() && d.unjudged != Unjudged::kNotAFace) why[wall.index()] = d.unjudged;
+  }
+  std::string text;
+  for (const auto& [reason, says] : reasons) {
+    const auto count = std::count(why.begin(), why.end(), reason);
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "Seen and not judged: " : "; ", count, says);
+  }
+  return text.empty() ? "" : text + ".";
+}
+
 }  // namespace
 
 const char* StatusName(SurfaceStatus status) {
@@ -173,6 +107,22 @@ const char* StatusName(SurfaceStatus status) {
     case SurfaceStatus::kUnobserved: break;
   }
   return "unobserved";
+}
+
+const char* UnjudgedName(Unjudged why) {
+  switch (why) {
+    case Unjudged::kNone: break;
+    case Unjudged::kNotAFace: return "not_a_face";
+    case Unjudged::kNotSeen: return "not_seen";
+    case Unjudged::kSeenTooLittle: return "seen_too_little";
+    case Unjudged::kUncertain: return "uncertain";
+    case Unjudged::kUndecided: return "undecided";
+    case Unjudged::kMayBeFurniture: return "may_be_furniture";
+    case Unjudged::kOtherShape: return "other_shape";
+    case Unjudged::kNoCovariance: return "no_covariance";
+    case Unjudged::kPlanarLaser: return "planar_laser";
+  }
+  return "";
 }
 
 std::string DeviationOptions::Check() const {
@@ -209,19 +159,26 @@ DeviationReport AssessDeviations(const AGraph& plan, const JointResult& estimate
   for (size_t i = 0; i < plan.surfaces.size(); ++i) report.surfaces[i].surface = SurfaceId(i);
 
   const std::vector<WallFrame> frames = WallFrames(plan);
-  const std::vector<SurfaceStatus> statuses = WallStatuses(plan, frames, estimate, options);
+  const std::vector<WallVerdict> verdicts = JudgeWalls(plan, frames, estimate, options);
   std::vector<const WallEstimate*> by_wall(plan.walls.size(), nullptr);
   for (const WallEstimate& w : estimate.walls) by_wall[w.wall.index()] = &w;
   for (size_t i = 0; i < plan.surfaces.size(); ++i) {
     const Surface& surface = plan.surfaces[i];
-    if (!surface.wall.valid() || !by_wall[surface.wall.index()] || !IsFace(frames[surface.wall.index()], surface)) continue;
+    if (!surface.wall.valid() || !IsFace(frames[surface.wall.index()], surface)) {
+      report.surfaces[i].unjudged = Unjudged::kNotAFace;
+      continue;
+    }
+    if (!by_wall[surface.wall.index()]) continue;
     const WallEstimate& wall = *by_wall[surface.wall.index()];
     SurfaceDeviation d = DeviationOfFace(MakeFace(frames[surface.wall.index()], surface), wall, options);
     d.surface = SurfaceId(i);
-    d.status = statuses[static_cast<size_t>(&wall - estimate.walls.data())];
+    const WallVerdict& verdict = verdicts[static_cast<size_t>(&wall - estimate.walls.data())];
+    d.status = verdict.status;
+    d.unjudged = verdict.unjudged;
     const size_t w = surface.wall.index();
     if (d.status == SurfaceStatus::kDeviated && w < changes.on_other_shape.size() && changes.on_other_shape[w]) {
       d.status = SurfaceStatus::kUnobserved;
+      d.unjudged = Unjudged::kOtherShape;
     }
     for (const SeenSurface& seen : wall.seen) {
       if (seen.surface != d.surface) continue;
@@ -233,9 +190,10 @@ DeviationReport AssessDeviations(const AGraph& plan, const JointResult& estimate
   MarkMissing(plan, changes, report);
   report.unplanned = changes.unplanned;
   report.doorways = changes.doorways;
-  LeaveOutDoubtful(plan, by_wall, statuses, estimate, report.doorways);
+  LeaveOutDoubtful(plan, by_wall, verdicts, estimate, report.doorways);
   for (size_t i = report.doorways.size(); i < plan.doorways.size(); ++i) report.doorways.push_back({.doorway = DoorwayId(i)});
-  if (!report.gauge.empty()) report.gauge += CountsText(plan, report);
+  report.unjudged = UnjudgedText(plan, report, options);
+  if (!report.gauge.empty()) report.gauge += CountsText(plan, report) + (report.unjudged.empty() ? "" : " " + report.unjudged);
   for (size_t r = 0; r < plan.rooms.size(); ++r) report.rooms.push_back(DeviationOfRoom(plan, RoomId(r), report.surfaces, options));
   return report;
 }

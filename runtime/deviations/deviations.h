@@ -16,6 +16,21 @@ namespace plumb::runtime {
 enum class SurfaceStatus : uint8_t { kAsPlanned, kDeviated, kMissing, kUnobserved };
 [[nodiscard]] const char* StatusName(SurfaceStatus status);  // as_planned | deviated | missing | unobserved
 
+// Why a surface is unobserved.
+enum class Unjudged : uint8_t {
+  kNone,            // it is judged
+  kNotAFace,        // the end of a wall, or curved: those never are
+  kNotSeen,         // nothing that was seen is known to be its wall
+  kSeenTooLittle,   // of its wall, all faces together
+  kUncertain,       // what was seen leaves a large deviation possible, or would not have shown it
+  kUndecided,       // its wall probably deviates, but not surely
+  kMayBeFurniture,  // what was seen is so small, or so far off, that it may be anything
+  kOtherShape,      // what was seen lies on another shape of the plan
+  kNoCovariance,    // the estimate has none, so nothing can be tested
+  kPlanarLaser,     // sees walls and furniture alike
+};
+[[nodiscard]] const char* UnjudgedName(Unjudged why);  // not_a_face | not_seen | ...; nothing for kNone
+
 struct DeviationOptions {
   double false_discovery_rate = 0.01;  // Benjamini-Hochberg over the observed walls
   double tolerance_offset_m = 0.005;   // construction tolerance (standard deviation) that the test allows for
@@ -38,6 +53,7 @@ struct DeviationOptions {
 struct SurfaceDeviation {
   SurfaceId surface;
   SurfaceStatus status = SurfaceStatus::kUnobserved;
+  Unjudged unjudged = Unjudged::kNotSeen;             // kNone unless unobserved
   double translation_m = 0, sigma_translation_m = 0;  // at the surface's midpoint, + along its planned normal
   double rotation_rad = 0, sigma_rotation_rad = 0;    // + counter-clockwise about +z
   double tilt_rad = 0;                                // + the normal turns upwards
@@ -58,6 +74,7 @@ struct RoomDeviation {
 
 struct DeviationReport {
   std::string gauge;
+  std::string unjudged;                    // how many walls were seen and not judged, and why; empty if there are none
   std::vector<SurfaceDeviation> surfaces;  // one per plan surface
   std::vector<RoomDeviation> rooms;        // one per plan room
   std::vector<UnplannedWall> unplanned;
@@ -82,7 +99,7 @@ struct WallChanges {
 // unobserved, however much of it was seen. So is a wall that was hardly seen and seems to have turned as boxes do, and a wall off its face
 // whose shape is as planned: what was seen there is in the plan, but is not this face. The faces of a wall that `changes` calls missing are
 // missing, whatever the estimate. A doorway that deviates from where a wall would have it that is not believed itself is unobserved. The
-// gauge says how many walls deviate and are missing.
+// gauge says how many walls deviate, are missing, or were seen and are not judged.
 [[nodiscard]] DeviationReport AssessDeviations(const AGraph& plan, const JointResult& estimate, const DeviationOptions& options = {},
                                                const WallChanges& changes = {});
 

@@ -18,6 +18,7 @@ Json SurfaceEntry(const AGraph& plan, const SurfaceDeviation& d) {
   out["storey"] = s.storey.valid() ? Json(plan.storeys[s.storey.index()].name) : Json(nullptr);
   out["normal"] = {Rounded(s.normal.x(), 1e9), Rounded(s.normal.y(), 1e9), Rounded(s.normal.z(), 1e9)};
   PutEstimate(d, out);
+  out["unjudged"] = TextOrNull(UnjudgedName(d.unjudged));
   out["tilt_deg"] = Degrees(d.tilt_rad);
   out["mdb_m"] = std::isfinite(d.mdb_m) ? Json(Metres(d.mdb_m)) : Json(nullptr);
   out["observed_m2"] = Rounded(d.observed_m2, 1e2);

@@ -274,7 +274,12 @@ struct GraphEstimator::Impl {
   [[nodiscard]] DeviationReport Deviations(const PlanEstimate& of) const {
     // What a planar laser takes for a wall may be the shelf in front of it: it is good enough to be found by, not to blame a wall for.
     DeviationReport report = AssessDeviations(plan, mapper.graph().planar ? JointResult() : of.joint(), options.deviations, of.changes());
-    if (mapper.graph().planar) report.gauge = "A planar laser sees walls and furniture alike, on one line: walls are not judged.";
+    if (mapper.graph().planar) {
+      report.gauge = report.unjudged = "A planar laser sees walls and furniture alike, on one line: walls are not judged.";
+      for (SurfaceDeviation& d : report.surfaces) {
+        if (d.unjudged == Unjudged::kNotSeen) d.unjudged = Unjudged::kPlanarLaser;
+      }
+    }
     for (size_t i = 0; i < earlier_surfaces.size(); ++i) {
       if (report.surfaces[i].status == SurfaceStatus::kUnobserved) report.surfaces[i] = earlier_surfaces[i];
     }

@@ -229,7 +229,7 @@ class Optimizer {
 
   static void Widen(const PatchDisagreement& disagreement, WallEvidence& evidence) {
     if (disagreement.variance_ratio > 1) evidence = {disagreement.mean, disagreement.variance_ratio * evidence.covariance};
-    evidence.covariance += disagreement.let_go;
+    evidence.covariance += disagreement.added;
   }
 
   WallEstimate Estimate(size_t w, const std::optional<JointCovariances>& covariances, const std::vector<RivalPlace>& rivals,

@@ -17,9 +17,10 @@ struct PatchDisagreement {
   double variance_ratio = 1;
   // Of all that were asked, (offset_m, yaw_rad), if the ratio is above 1: the solve settles on one of them instead.
   Eigen::Vector2d mean = Eigen::Vector2d::Zero();
-  // To be added to the variances: mean over all that was seen of the wall, by area, of the square of how far off it is, what the solve has
-  // kept counting as not off at all; zero if what it has let go of is a third or less.
-  Eigen::Matrix2d let_go = Eigen::Matrix2d::Zero();
+  // To be added to the variances. Where the solve has let go of more than a third of what was seen of the wall: mean over all of that, by
+  // area, of the square of how far off it is, what the solve has kept counting as not off at all. Where patches that are a third or less
+  // contradict the rest, which agrees: the square of how far the solve is off that.
+  Eigen::Matrix2d added = Eigen::Matrix2d::Zero();
 };
 
 // By wall; walls whose patches agree (chi-square, 99 %) are left out. `estimates`: (offset_m, yaw_rad, thickness error in m) of every wall

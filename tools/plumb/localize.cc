@@ -153,10 +153,11 @@ void SayNotLocalized(const std::string& folder, const RunInfo& info, const Repla
       folder));
 }
 
-void SayLocalized(const LocalizeFlags& flags, const RunInfo& info, Console& console) {
+void SayLocalized(const LocalizeFlags& flags, const RunInfo& info, const runtime::DeviationReport& report, Console& console) {
   console.Info(fmt::format("{}: localized after {:.1f} s, {} of {} scans; {}, {} missing, {} unplanned; {:.0f} ms per scan", flags.output,
                            *info.time_to_localize_s, info.localized_scans, info.scans, Counted(info.deviated_walls, "deviated wall"),
                            info.missing_walls, info.unplanned_walls, info.ms_per_scan));
+  if (!report.unjudged.empty()) console.Info(fmt::format("{}: {}", flags.output, report.unjudged));
   if (flags.options.joint.mode == runtime::EstimationMode::kIs)
     console.Info("mode is: every wall is taken to stand as planned; deviations are not looked for");
   if (info.pace) {
@@ -168,14 +169,14 @@ void SayLocalized(const LocalizeFlags& flags, const RunInfo& info, Console& cons
 
 // What came of it, and the exit status that says so.
 Status Conclude(const LocalizeFlags& flags, const RunInfo& info, const ReplayResults& results, const runtime::Localizer& localizer,
-                size_t num_scans, Console& console) {
+                const runtime::DeviationReport& report, size_t num_scans, Console& console) {
   if (info.interrupted)
     console.Error(fmt::format("interrupted after {} of {} scans; {} has what was known by then", info.scans, num_scans, flags.output));
   if (!info.time_to_localize_s) {
     SayNotLocalized(flags.output, info, results, localizer, console);
     return Status::kFindings;
   }
-  SayLocalized(flags, info, console);
+  SayLocalized(flags, info, report, console);
   if (!localizer.T_plan_map()) {
     console.Error(fmt::format("{}: lost at the end of the recording: what was seen since then has no place in the plan", flags.output));
     return Status::kFindings;
@@ -220,7 +221,7 @@ Status RunLocalize(LocalizeFlags flags, const CLI::App& sub, Session& session) {
   const runtime::DeviationReport report = localizer.Deviations();
   const RunInfo info = Describe(flags, sub, *plan, *results, localizer, report);
   if (const auto written = WriteRun(flags, *plan, *results, localizer, report, info); !written) return session.Fail(written.error());
-  return Conclude(flags, info, *results, localizer, recording->size(), session.console);
+  return Conclude(flags, info, *results, localizer, report, recording->size(), session.console);
 }
 
 }  // namespace
@@ -245,8 +246,7 @@ void AddLocalize(CLI::App& app, Session& session) {
       ->type_name("NAME")
       ->default_str("")
       ->allow_extra_args(false);
-  sub->add_option("--mount", flags->mount_deg,
-                  "how the lidar sits on the robot, deg; needed where it is over 35 off upright")
+  sub->add_option("--mount", flags->mount_deg, "how the lidar sits on the robot, deg; needed where it is over 35 off upright")
       ->type_name("ROLL,PITCH");
   sub->add_flag("--no-odometry", flags->no_odometry, "do without the recording's odometry.tum");
   sub->add_option("--start", flags->replay.start_s, "leave out this much of the recording at its beginning, s");

@@ -163,12 +163,39 @@ std::string WallRowHtml(const AGraph& plan, const WallRow& row) {
       s.sigma_rotation_deg, s.p_deviated, s.observed_m2, s.points);
 }
 
+// Why a wall is not judged of which something was seen.
+const char* UnjudgedText(const std::string& why) {
+  const std::pair<const char*, const char*> texts[] = {{"seen_too_little", "too little of it was seen"},
+                                                       {"uncertain", "by what was seen it may be far off"},
+                                                       {"undecided", "probably off, but not surely"},
+                                                       {"may_be_furniture", "what was seen may be furniture"},
+                                                       {"other_shape", "what was seen is another shape of the plan"},
+                                                       {"no_covariance", "nothing tells how sure the estimate is"},
+                                                       {"planar_laser", "a planar laser sees furniture alike"}};
+  for (const auto& [name, text] : texts) {
+    if (why == name) return text;
+  }
+  return "";
+}
+
+// Without its estimate: what the prior makes of such a wall would pass for a finding.
+std::string UnjudgedRowHtml(const AGraph& plan, const WallRow& row) {
+  const Wall& wall = plan.walls[row.wall.index()];
+  const SurfaceEntry& s = *row.surface;
+  return fmt::format(
+      "<tr><td></td><td class=\"t\">{}<small>{}</small></td><td class=\"t\">{}</td><td class=\"t\">not judged<small>{}</small></td>"
+      "<td></td><td></td><td></td><td>{:.1f}</td><td>{:.0f}</td></tr>\n",
+      EscapeXml(wall.name), EscapeXml(s.wall_guid), wall.storey.valid() ? EscapeXml(plan.storeys[wall.storey.index()].name) : "",
+      UnjudgedText(s.unjudged), s.observed_m2, s.points);
+}
+
 std::string WallTable(const AGraph& plan, const std::vector<WallRow>& rows) {
   std::string body;
   size_t unobserved = 0;
   for (const WallRow& row : rows) {
     if (row.surface->status == "unobserved") {
       ++unobserved;
+      if (row.surface->points > 0) body += UnjudgedRowHtml(plan, row);
     } else {
       body += WallRowHtml(plan, row);
     }

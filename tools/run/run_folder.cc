@@ -64,6 +64,7 @@ SurfaceEntry ParseSurface(const Json& json) {
   Get(json, "p_deviated", s.p_deviated);
   Get(json, "observed_m2", s.observed_m2);
   Get(json, "points", s.points);
+  Get(json, "unjudged", s.unjudged);
   return s;
 }
 

@@ -34,7 +34,8 @@ struct SurfaceEntry {
   std::string wall_guid, status;  // as_planned | deviated | missing | unobserved
   double translation_m = 0, sigma_translation_m = 0, rotation_deg = 0, sigma_rotation_deg = 0, tilt_deg = 0;
   double p_deviated = 0, observed_m2 = 0, points = 0;
-  WallId wall = {};  // in the plan; invalid: none, or an older run, which does not tell
+  WallId wall = {};           // in the plan; invalid: none, or an older run, which does not tell
+  std::string unjudged = {};  // why it is unobserved; empty: it is not, or an older run
 };
 
 struct RoomEntry {

@@ -254,6 +254,7 @@ TEST(DeviationsToJson, HasTheAgreedForm) {
   EXPECT_EQ(east["wall_id"], house.surfaces[9].wall.value);
   EXPECT_EQ(east["storey"], "Ground floor");
   EXPECT_EQ(east["status"], "deviated");
+  EXPECT_TRUE(east["unjudged"].is_null());
   EXPECT_NEAR(east["rotation_deg"], 3, 0.3);
   EXPECT_NEAR(std::abs(east["translation_m"].get<double>()), 0.2, 0.01);
   for (const char* key :
@@ -271,6 +272,37 @@ TEST(DeviationOptions, CheckNamesFieldValueAndRule) {
   DeviationOptions options;
   options.false_discovery_rate = 0;
   EXPECT_EQ(options.Check(), "DeviationOptions.false_discovery_rate = 0; must be in (0, 1)");
+}
+
+// What a wall that was seen is not judged for is said of each of its faces, and in all.
+TEST(AssessDeviations, SaysWhyAWallIsNotJudged) {
+  const AGraph house = test::MakeHouse();
+  const auto assess = [&house](const JointResult& estimate, const WallChanges& changes = {}) {
+    return AssessDeviations(house, estimate, {}, changes);
+  };
+  const Eigen::Matrix2d sharp = Eigen::Matrix2d::Identity() * 1e-6;
+  JointResult estimate = EstimateOfEastWall(house, {0.03, 0}, sharp, 3);
+  const DeviationReport judged = assess(estimate);
+  EXPECT_EQ(judged.surfaces[9].unjudged, Unjudged::kNone);
+  EXPECT_EQ(judged.unjudged, "");
+  for (const SurfaceDeviation& d : judged.surfaces) {
+    if (house.surfaces[d.surface.index()].wall != WallId(kEast)) {
+      EXPECT_EQ(d.unjudged, Unjudged::kNotSeen) << d.surface.value;
+    }
+  }
+  EXPECT_EQ(assess(EstimateOfEastWall(house, {0.3, 0}, sharp, 0.2)).surfaces[9].unjudged, Unjudged::kSeenTooLittle);
+  EXPECT_EQ(assess(EstimateOfEastWall(house, {0.03, 0.2}, sharp, 0.7)).surfaces[9].unjudged, Unjudged::kMayBeFurniture);
+  const DeviationReport blurred = assess(EstimateOfEastWall(house, {}, Eigen::Vector2d(0.0064, 1e-6).asDiagonal(), 30));
+  EXPECT_EQ(blurred.surfaces[9].unjudged, Unjudged::kUncertain);
+  EXPECT_EQ(blurred.unjudged, "Seen and not judged: 1 that may be 10 cm off by what was seen.");
+  estimate.walls[0].p_deviated = 0.8;
+  EXPECT_EQ(assess(estimate).surfaces[9].unjudged, Unjudged::kUndecided);
+  estimate.walls[0].p_deviated = 1;
+  WallChanges changes;
+  changes.on_other_shape.assign(house.walls.size(), true);
+  EXPECT_EQ(assess(estimate, changes).surfaces[9].unjudged, Unjudged::kOtherShape);
+  estimate.covariances_exact = false;
+  EXPECT_EQ(assess(estimate).surfaces[9].unjudged, Unjudged::kNoCovariance);
 }
 
 }  // namespace

@@ -115,6 +115,21 @@ TEST(Report, ListsDeviatedWallsBySize) {
   EXPECT_EQ(rows[2].number, 0);
 }
 
+TEST(Report, SaysWhyAWallThatWasSeenIsNotJudged) {
+  const AGraph house = test::MakeHouse();
+  tools::Run run = MakeRun(house);
+  const char* why = "not judged<small>by what was seen it may be far off</small>";
+  EXPECT_THAT(*RunToHtml(house, run, MakeInfo()), Not(HasSubstr("not judged")));
+  for (SurfaceEntry& s : run.deviations.surfaces) {
+    if (s.wall_guid == "wall-across") s.status = "unobserved", s.unjudged = "uncertain";
+  }
+  EXPECT_THAT(*RunToHtml(house, run, MakeInfo()), HasSubstr(why));
+  for (SurfaceEntry& s : run.deviations.surfaces) {
+    if (s.wall_guid == "wall-across") s.points = 0;
+  }
+  EXPECT_THAT(*RunToHtml(house, run, MakeInfo()), Not(HasSubstr("not judged"))) << "nothing of it was seen";
+}
+
 TEST(Report, ShowsMissingWallsAndWallsInNoPlan) {
   const AGraph house = test::MakeHouse();
   tools::Run run = MakeRun(house);

@@ -44,7 +44,7 @@ TEST(Deviations, ReadsTheFileOfTheDesign) {
   const auto d = ParseDeviations(
       R"({"version":1,"gauge":"fewest walls","surfaces":[{"id":17,"wall_id":4,"wall_guid":"2O2Fr$t4X7Zf8NOew3FLOH","storey":"EG",
     "normal":[1,0,0],"status":"deviated","translation_m":0.203,"sigma_translation_m":0.004,"rotation_deg":0.4,"sigma_rotation_deg":0.1,
-    "tilt_deg":0.0,"p_deviated":0.999,"observed_m2":6.1,"points":8123},{"id":18,"wall_guid":null,"status":"unobserved","translation_m":null}],
+    "tilt_deg":0.0,"p_deviated":0.999,"observed_m2":6.1,"points":8123},{"id":18,"wall_guid":null,"status":"unobserved","unjudged":"uncertain","translation_m":null}],
     "rooms":[{"id":3,"name":"Bad","guid":null,"translation_m":[0.1,-0.2],"rotation_deg":1.0,"sigma_m":0.005,"status":"as_planned"}],"unplanned":[]})",
       "deviations.json");
   ASSERT_TRUE(d) << d.error().message;
@@ -56,6 +56,8 @@ TEST(Deviations, ReadsTheFileOfTheDesign) {
   EXPECT_EQ(d->surfaces[0].translation_m, 0.203);
   EXPECT_EQ(d->surfaces[0].points, 8123);
   EXPECT_EQ(d->surfaces[1].translation_m, 0);
+  EXPECT_EQ(d->surfaces[1].unjudged, "uncertain");
+  EXPECT_EQ(d->surfaces[0].unjudged, "");
   EXPECT_EQ(d->rooms.at(0).translation_m.y(), -0.2);
 }
 

@@ -75,7 +75,7 @@ std::string CountsText(const AGraph& plan, const DeviationReport& report) {
   return text + ".";
 }
 
-// "Not judged: 3 walls of which too little was seen, 1 wall that ...", of walls that were seen, by the gravest of their faces.
+// "Seen and not judged: 5 that may be 10 cm off by what was seen; 1 ...", of walls that were seen; the faces of a wall share its verdict.
 std::string UnjudgedText(const AGraph& plan, const DeviationReport& report, const DeviationOptions& options) {
   const std::pair<Unjudged, std::string> reasons[] = {
       {Unjudged::kUncertain, fmt::format("that may be {:.0f} cm off by what was seen", 100 * options.max_undecided_m)},

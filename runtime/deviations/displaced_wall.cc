@@ -9,7 +9,7 @@ namespace {
 constexpr double kOn_m = 0.10;  // of a point from the faces of the wall that it is on, besides what the steps leave
 constexpr double kOffsetStep_m = 0.1, kYawStep_rad = 0.1309;
 constexpr double kMinClosed_m2 = 0.25;  // of what must be seen of a wall that may stand there
-constexpr double kMinOpenRatio = 0.5;  // of the cells seen: a wall that stands there stops lines nearly everywhere, furniture in part
+constexpr double kMinOpenRatio = 0.5;   // of the cells seen: a wall that stands there stops lines nearly everywhere, furniture in part
 
 Panel Moved(Panel panel, const Eigen::Vector2d& pivot, const Eigen::Vector2d& normal, double offset_m, double yaw_rad) {
   const Eigen::Rotation2Dd turn(yaw_rad);

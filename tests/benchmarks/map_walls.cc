@@ -23,9 +23,9 @@ namespace {
 
 constexpr double kMinLength_m = 1.0, kSameDirection_rad = 0.2, kSamePlane_m = 0.15, kMinShare = 0.5;
 constexpr double kTwice_m = 0.1, kTwiceShare = 0.3;
-constexpr double kReal_m = 0.015;  // from a surface of the map to the face of the house that it is
-constexpr double kPhantom_m = 0.025, kPhantomShare = 0.5;
-constexpr double kOneFace_m = 0.01;  // two surfaces of the map whose faces are closer are one
+constexpr double kReal_m = 0.015;                          // from a surface of the map to the face of the house that it is
+constexpr double kPhantom_m = 0.025, kPhantomShare = 0.5;  // further from any face, this share of a surface
+constexpr double kOneFace_m = 0.01;                        // two surfaces of the map whose faces are closer are one
 constexpr uint32_t kMinScans = 20;
 constexpr double kSquare_m = 0.25;  // of a built face, seen by a scan that has kMinSquarePoints returns from it
 constexpr double kOnFace_m = 0.06, kSeenOff_m = 0.015, kBuilt_m = 0.005;
@@ -78,8 +78,7 @@ void Name(const char* what, const BuiltFace& b, const std::vector<MappedFace>& m
     const auto seen = std::count_if(covered.begin(), covered.end(), [&](size_t square) { return b.Seen(square); });
     fmt::print(stderr,
                "    map: {:.2f} m to {:.2f} m along, {:.1f} mm in front, {:.2f} deg, tilt {:.2f}, {:.2f} m to {:.2f} m high, {} of {} "
-               "squares, {} views, "
-               "{} points\n",
+               "squares, {} views, {} points\n",
                kSquare_m * static_cast<double>(first), kSquare_m * static_cast<double>(last), 1000 * OffsetAt_m(b, m, middle),
                Turn_rad(b.normal(), m.plane.n) * kDegrees, TiltOf_deg(m), m.z_min_m, m.z_max_m, seen, covered.size(), m.views,
                static_cast<int64_t>(m.points));

@@ -7,6 +7,7 @@
 #include <optional>
 #include <utility>
 
+#include "runtime/mapping/lack_of_fit.h"
 #include "runtime/mapping/plane_fit.h"
 #include "runtime/odometry/voxel_index.h"
 
@@ -31,6 +32,8 @@ constexpr double kMinCellPoints = 2;
 constexpr double kMaxContested = 0.2;      // of a cell's points
 constexpr double kMinSure = 0.5;           // of a segment's cells
 constexpr double kMinCellShare = 0.25;     // of the median cell's points: less is noise beyond an edge
+constexpr double kSureLength_m = 1.0;      // a longer segment is a wall even if it is not flat
+constexpr double kMaxMisfit_m = 0.007, kMaxMisfitRatio = 3;  // of a shorter one (lack_of_fit.h)
 
 struct Cell {
   const CellStats* stats;
@@ -192,7 +195,16 @@ PlaneStats SureSum(const std::vector<Cell>& cells, const PlaneAxes& axes, double
   return SumOf(cells, [](const Cell&) { return true; }).stats;
 }
 
-// The segment of cells on a plane, or none if it is too small.
+// Whether the plane lies over what is none: narrow faces that it passes through one after the other.
+bool IsRagged(const std::vector<Cell>& cells, const Plane& plane, const PlaneAxes& axes) {
+  std::vector<PlaneStats> stats;
+  stats.reserve(cells.size());
+  for (const Cell& cell : cells) stats.push_back(*cell.stats);
+  const LackOfFit misfit = LackOfFitOf(stats, plane, axes.along);
+  return misfit.rms_m > kMaxMisfit_m && misfit.ratio > kMaxMisfitRatio;
+}
+
+// The segment of cells on a plane, or none if it is too small or no plane.
 std::optional<Segment> SegmentOf(const std::vector<Cell>& cells, SurfaceKind kind, const Eigen::Vector3d& normal, const PlaneAxes& axes,
                                  double min_count, const MapperOptions& options) {
   Segment segment;
@@ -215,6 +227,7 @@ std::optional<Segment> SegmentOf(const std::vector<Cell>& cells, SurfaceKind kin
       kind == SurfaceKind::kWall ? std::min(kMinAcross_m, options.min_segment_extent_m) : options.min_segment_extent_m;
   if (size_m.x() < options.min_segment_extent_m || size_m.y() < min_across_m) return std::nullopt;
   if (area_m2 < kSureArea_m2 && area_m2 < kMinFill * size_m.prod()) return std::nullopt;
+  if (kind == SurfaceKind::kWall && size_m.x() < kSureLength_m && IsRagged(cells, segment.plane, axes)) return std::nullopt;
   return segment;
 }
 

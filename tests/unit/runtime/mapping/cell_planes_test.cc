@@ -87,6 +87,23 @@ TEST(SplitCells, WhatIsAtItsEndsLeansNoPier) {
   EXPECT_EQ(between.cells.size(), 200u) << "they are the wall's all the same";
 }
 
+// A pillar before a window in deep reveals: three faces, two of them seen edge on and too narrow to be planes, under a plane that leans
+// over all of them. `across_m`: how far the reveals reach back.
+std::vector<Segment> Reveals(double across_m) {
+  return Split(
+      Wall([=](double x_m) { return x_m < 6 || x_m > 6.6 ? std::nan("") : across_m * (std::fmod(x_m, 0.3) / 0.3 - 0.5); }, 20, 0.02), 0.02);
+}
+TEST(SplitCells, NarrowFacesOneAfterTheOtherAreNoPlane) {
+  EXPECT_EQ(Reveals(0).size(), 1u);
+  EXPECT_TRUE(Reveals(0.08).empty());
+}
+
+// Its facets bend by 8 mm, rms, and more.
+TEST(SplitCells, AFacetOfARoundColumnIsOne) {
+  const auto column = [](double x_m) { return std::abs(x_m - 4) > 0.45 ? std::nan("") : 0.8 * (x_m - 4) * (x_m - 4); };
+  EXPECT_FALSE(Split(Wall(column, 20, 0.02), 0.02).empty());
+}
+
 // Where the scan's lines are far apart, most cells have none beside them: then all of them tell the plane.
 TEST(SplitCells, FewCellsAllTellThePlane) {
   std::vector<CellStats> cells = Wall([](double) { return 0; }, 50, 0.01), sparse;

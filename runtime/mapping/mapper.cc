@@ -8,6 +8,7 @@
 #include <numeric>
 #include <utility>
 
+#include "runtime/mapping/glimpses.h"
 #include "runtime/mapping/keyframe_merging.h"
 #include "runtime/mapping/planar_segmentation.h"
 #include "runtime/mapping/pose_graph.h"
@@ -318,6 +319,12 @@ void Mapper::DropEchoCells() {
   }
 }
 
+void Mapper::DropGlimpses() {
+  for (size_t i = 0; i < graph_.surfaces.size(); ++i) {
+    if (IsGlimpse(graph_.surfaces[i], balls_[i].center, graph_.keyframes)) Empty(i);
+  }
+}
+
 std::vector<SurfaceSplit> Mapper::OnPosesChanged(bool settled) {
   for (Keyframe& keyframe : graph_.keyframes) {
     if (keyframe.merged) keyframe.T_map_kf = graph_.keyframes[keyframe.merged->into].T_map_kf * keyframe.merged->T_into_kf;
@@ -328,7 +335,10 @@ std::vector<SurfaceSplit> Mapper::OnPosesChanged(bool settled) {
   std::vector<SurfaceSplit> splits;
   if (!graph_.planar) splits = SplitSurfaces();
   MergeDuplicates(settled && !graph_.planar);
-  if (settled && !graph_.planar) DropEchoCells();
+  if (settled && !graph_.planar) {
+    DropEchoCells();
+    DropGlimpses();
+  }
   if (graph_.keyframes.empty()) return splits;
   const Keyframe& newest = graph_.keyframes.back();
   T_map_odom_ = newest.T_map_kf * newest.T_odom_kf.inverse();

@@ -47,8 +47,9 @@ class Mapper {
   // After keyframe poses in mutable_graph() were changed: recomputes surface planes and extents, splits what no longer lies on one plane,
   // merges what now coincides, and takes T_map_odom from the newest keyframe. Maps of planar lasers are not split. `settled`: the poses are
   // those of the last solve, and nothing more is to be seen of what was seen from one keyframe alone; then that is merged whatever its
-  // direction, and cells that are echoes are taken from their surfaces for good. O(observations log observations + surfaces^2), and
-  // O(points of the views' keyframes) for a surface whose views lie on two planes. Returns what was split, in that order.
+  // direction, cells that are echoes are taken from their surfaces for good, and glimpses (glimpses.h) are dropped. O(observations log
+  // observations + surfaces^2), and O(points of the views' keyframes) for a surface whose views lie on two planes. Returns what was split,
+  // in that order.
   std::vector<SurfaceSplit> OnPosesChanged(bool settled = false);
 
  private:
@@ -67,6 +68,7 @@ class Mapper {
   void CloseSpatialLoops();
   void MergeDuplicates(bool settled = false);
   void DropEchoCells();
+  void DropGlimpses();
   void BoundKeyframes();
   void Merge(uint32_t keyframe, uint32_t into);
 

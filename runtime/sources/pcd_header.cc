@@ -55,6 +55,7 @@ class HeaderParser {
       if (std::string fault = TakeLine(words); !fault.empty()) return Bad(fault);
       have_data = words[0] == "DATA";
     }
+    if (text_.empty()) return Bad("is empty");
     if (!have_data) return Bad("the header has no `DATA` line");
     if (std::string fault = Finish(); !fault.empty()) return Bad(fault);
     return std::move(header_);

@@ -142,15 +142,16 @@ std::string CheckAgainst(const runtime::Recording& recording, const LocalizeFlag
   return {};
 }
 
-void SayNotLocalized(const std::string& folder, const RunInfo& info, const ReplayResults& results, const runtime::Localizer& localizer,
+void SayNotLocalized(const LocalizeFlags& flags, const RunInfo& info, const ReplayResults& results, const runtime::Localizer& localizer,
                      Console& console) {
-  console.Info(fmt::format("{}: not localized in {} scans: {}", folder, info.scans, info.last_reason));
+  console.Info(fmt::format("{}: not localized in {} scans: {}", flags.output, info.scans, info.last_reason));
   if (localizer.T_plan_map()) return;
   if (!results.tries.empty() && results.tries.back().guidance) console.Info(Advice(*results.tries.back().guidance));
+  const bool hinted = !flags.near_m.empty() || !flags.rooms.empty();
   console.Info(fmt::format(
-      "{}/hypotheses.json lists where it could be; drive through more rooms, or say --near or --room. If that does not help: another "
-      "plan or storey? `plumb validate` looks at the plan, `plumb doctor` at the recording",
-      folder));
+      "{0}/hypotheses.json lists where it could be, {0}/trajectory.tum is empty; drive through more rooms, or {1}. If that does not help: "
+      "another plan or storey? `plumb validate` looks at the plan, `plumb doctor` at the recording",
+      flags.output, hinted ? "look whether it started where --near or --room say" : "say --near or --room"));
 }
 
 void SayLocalized(const LocalizeFlags& flags, const RunInfo& info, const runtime::DeviationReport& report, Console& console) {
@@ -171,9 +172,9 @@ void SayLocalized(const LocalizeFlags& flags, const RunInfo& info, const runtime
 Status Conclude(const LocalizeFlags& flags, const RunInfo& info, const ReplayResults& results, const runtime::Localizer& localizer,
                 const runtime::DeviationReport& report, size_t num_scans, Console& console) {
   if (info.interrupted)
-    console.Error(fmt::format("interrupted after {} of {} scans; {} has what was known by then", info.scans, num_scans, flags.output));
+    console.Info(fmt::format("interrupted after {} of {} scans; {} has what was known by then", info.scans, num_scans, flags.output));
   if (!info.time_to_localize_s) {
-    SayNotLocalized(flags.output, info, results, localizer, console);
+    SayNotLocalized(flags, info, results, localizer, console);
     return Status::kFindings;
   }
   SayLocalized(flags, info, report, console);

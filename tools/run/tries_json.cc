@@ -140,7 +140,8 @@ Expected<std::vector<TryRow>> ParseTries(const std::string& json, const std::str
 
 std::string Advice(const GuidanceRow& guidance) {
   const std::string places = fmt::format("{} places look alike", guidance.rivals + 1);
-  if (!guidance.drive_to) return places + "; no room in reach tells them apart: say where the robot starts (--near, --room)";
+  if (!guidance.drive_to)
+    return places + "; no room in reach tells them apart: say as closely as you can where the robot starts (--near, --room)";
   const DriveToRow& d = *guidance.drive_to;
   const double bearing_deg = d.bearing_rad * 180 / std::numbers::pi;
   std::vector<std::string> names;

@@ -178,6 +178,9 @@ TEST_F(Pcd, RefusesBrokenHeaders) {
   EXPECT_EQ(ReadPcd(folder_ / "none.pcd", 0).error().code, ErrorCode::kFileNotFound);
 }
 
+// As a full disk leaves it.
+TEST_F(Pcd, SaysThatAFileIsEmpty) { EXPECT_NE(Parse(std::string()).error().message.find("is empty"), std::string::npos); }
+
 TEST_F(Pcd, RefusesSizesThatTheFileDoesNotHold) {
   // Two thousand million points announced, none there: must not be allocated either.
   for (const char* data : {"ascii", "binary", "binary_compressed"}) {

@@ -6,7 +6,6 @@
 #include <array>
 #include <functional>
 #include <limits>
-#include <numbers>
 #include <queue>
 #include <utility>
 
@@ -15,23 +14,6 @@ namespace {
 
 constexpr double kStepLoss = 3.0, kLoopLoss = 2.0;  // in sigmas
 constexpr double kLever_m = 5.0;                    // what a heading's error counts as, in choosing paths
-
-struct EdgeResidual {
-  Pose2 T_from_to;
-  Eigen::Matrix3d weight;  // its square is the information
-  template <class T>
-  bool operator()(const T* a, const T* b, T* r) const {
-    using std::cos;
-    using std::sin;
-    const T c = cos(a[2]), s = sin(a[2]), dx = b[0] - a[0], dy = b[1] - a[1];
-    T turn = b[2] - a[2] - T(T_from_to.yaw_rad);
-    turn = turn - T(2 * std::numbers::pi) * ceres::floor((turn + T(std::numbers::pi)) / T(2 * std::numbers::pi));
-    const Eigen::Matrix<T, 3, 1> off(c * dx + s * dy - T(T_from_to.t_m.x()), c * dy - s * dx - T(T_from_to.t_m.y()), turn);
-    Eigen::Map<Eigen::Matrix<T, 3, 1>> out(r);
-    out = weight.cast<T>() * off;
-    return true;
-  }
-};
 
 double PathCost(const Eigen::Matrix3d& c) { return c(0, 0) + c(1, 1) + kLever_m * kLever_m * c(2, 2); }
 double PathCost(const Matrix6d& c) { return c.bottomRightCorner<3, 3>().trace() + kLever_m * kLever_m * c.topLeftCorner<3, 3>().trace(); }
@@ -118,8 +100,8 @@ std::vector<Pose2> SolvePoseGraph(const std::vector<Pose2>& poses, std::span<con
   problem.SetParameterBlockConstant(blocks.front().data());
   for (const PoseEdge& edge : edges) {
     const Eigen::Matrix3d information = edge.covariance.ldlt().solve(Eigen::Matrix3d::Identity());
-    const EdgeResidual residual{edge.T_from_to, information.llt().matrixU()};
-    problem.AddResidualBlock(new ceres::AutoDiffCostFunction<EdgeResidual, 3, 3, 3>(new EdgeResidual(residual)),
+    const PlanarMotionResidual residual{edge.T_from_to, information.llt().matrixU()};
+    problem.AddResidualBlock(new ceres::AutoDiffCostFunction<PlanarMotionResidual, 3, 3, 3>(new PlanarMotionResidual(residual)),
                              edge.loop ? static_cast<ceres::LossFunction*>(&loop_loss) : &step_loss, blocks[edge.from].data(),
                              blocks[edge.to].data());
   }

@@ -5,7 +5,10 @@
 #pragma once
 
 #include <Eigen/Geometry>
+#include <cmath>
+#include <numbers>
 
+#include "runtime/odometry/planar/pose2.h"
 #include "runtime/odometry/registration.h"
 
 namespace plumb::runtime {
@@ -64,6 +67,25 @@ struct MotionResidual {
     Eigen::Matrix<T, 6, 1> off;
     off << sign * T(2) * turn.vec(), q_from.conjugate() * (t_to - t_from) - T_from_to.translation().cast<T>();
     Eigen::Map<Eigen::Matrix<T, 6, 1>> out(r);
+    out = sqrt_information.cast<T>() * off;
+    return true;
+  }
+};
+
+// The same in the plane. Poses are [x y yaw].
+struct PlanarMotionResidual {
+  Pose2 T_from_to;                   // as measured
+  Eigen::Matrix3d sqrt_information;  // of (x, y, yaw), in the axes of `from`
+  template <class T>
+  bool operator()(const T* from, const T* to, T* r) const {
+    using std::cos;
+    using std::floor;
+    using std::sin;
+    const T c = cos(from[2]), s = sin(from[2]), dx = to[0] - from[0], dy = to[1] - from[1];
+    T turn = to[2] - from[2] - T(T_from_to.yaw_rad);
+    turn = turn - T(2 * std::numbers::pi) * floor((turn + T(std::numbers::pi)) / T(2 * std::numbers::pi));
+    const Eigen::Matrix<T, 3, 1> off(c * dx + s * dy - T(T_from_to.t_m.x()), c * dy - s * dx - T(T_from_to.t_m.y()), turn);
+    Eigen::Map<Eigen::Matrix<T, 3, 1>> out(r);
     out = sqrt_information.cast<T>() * off;
     return true;
   }

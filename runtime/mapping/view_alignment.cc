@@ -6,6 +6,7 @@
 #include "runtime/mapping/plane_fit.h"
 #include "runtime/mapping/plane_view.h"
 #include "runtime/mapping/pose_motion.h"
+#include "runtime/mapping/view_equations.h"
 
 namespace plumb::runtime {
 namespace {
@@ -38,28 +39,6 @@ std::vector<Pair> PairsOf(const SGraph& graph, uint32_t keyframe, uint32_t into,
     pairs.push_back({view(*of_a, a), view(*of_b, b), surface.plane.Transformed(T_into_map), of_a->stats.centroid()});
   }
   return pairs;
-}
-
-// What a view says of a plane through `at` that is turned by x[0] and x[1] about it and shifted by x[2] along its normal, and of the
-// increment (rotation, translation) of the pose T that the view is seen from. Linear, whitened.
-struct ViewEquations {
-  Eigen::Vector3d residual;
-  Eigen::Matrix3d by_plane;
-  Matrix36d by_pose;
-};
-ViewEquations EquationsOf(const PlaneView& view, const Eigen::Isometry3d& T, const Plane& plane, const Eigen::Vector3d& at) {
-  const Eigen::Vector3d& n = plane.n;
-  const Eigen::Vector3d a = n.unitOrthogonal(), b = n.cross(a);
-  const Eigen::Vector3d center = T * view.center, u = T.linear() * view.u, v = T.linear() * view.v;
-  ViewEquations e;
-  e.residual << plane.SignedDistance(center) * view.weight_center, n.dot(u) * view.weight_u, n.dot(v) * view.weight_v;
-  e.by_plane << a.dot(center - at), b.dot(center - at), 1, a.dot(u), b.dot(u), 0, a.dot(v), b.dot(v), 0;
-  e.by_pose << (center - T.translation()).cross(n).transpose(), n.transpose(), u.cross(n).transpose(), Eigen::RowVector3d::Zero(),
-      v.cross(n).transpose(), Eigen::RowVector3d::Zero();
-  const Eigen::Vector3d weights(view.weight_center, view.weight_u, view.weight_v);
-  e.by_plane = weights.asDiagonal() * e.by_plane;
-  e.by_pose = weights.asDiagonal() * e.by_pose;
-  return e;
 }
 
 struct PoseEquations {

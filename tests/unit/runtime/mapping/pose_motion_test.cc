@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/support/jacobian.h"
+
 namespace plumb::runtime {
 namespace {
 
@@ -53,6 +55,36 @@ TEST(PoseMotion, ResidualIsTheIncrementOfTheMeasuredMotion) {
   const MotionResidual residual{measured, 2 * Matrix6d::Identity(), Eigen::Isometry3d::Identity(), in_body};
   ASSERT_TRUE(residual(pose_a.data(), pose_b.data(), r.data()));
   EXPECT_LT((r - 2 * off).norm(), 1e-6);
+}
+
+TEST(PoseMotion, ResidualsHaveTheJacobiansOfDifferencesAndTellAllOfBothEnds) {
+  const auto block = [](const Eigen::Isometry3d& T) {
+    return (Eigen::Matrix<double, 7, 1>() << Eigen::Quaterniond(T.linear()).coeffs(), T.translation()).finished();
+  };
+  const MotionResidual residual{Pose(1, 2, 0.1, {0.02, 0, 0.3}), SomeCovariance(1), Pose(0, 0.3, 0, {0, 0.2, 0}),
+                                Pose(0.2, 0.1, 0, {0, 0, 0.4})};
+  Eigen::Matrix<double, 14, 1> x;
+  x << block(kA), block(kB);
+  const auto J = test::CheckedJacobian<6, 14>([&](const auto* p, auto* r) { residual(p, p + 7, r); }, x);
+  EXPECT_EQ(test::Rank(J.leftCols<7>() * test::PoseTangent(x.head<7>())), 6);
+  EXPECT_EQ(test::Rank(J.rightCols<7>() * test::PoseTangent(x.tail<7>())), 6);
+
+  const PlanarMotionResidual planar{{{1, 0.2}, 0.5}, SomeCovariance(1).topLeftCorner<3, 3>()};
+  const Eigen::Matrix<double, 6, 1> y = (Eigen::Matrix<double, 6, 1>() << 3, -1, 0.8, -2, 4, -2.9).finished();
+  const auto by_ends = test::CheckedJacobian<3, 6>([&](const auto* p, auto* r) { planar(p, p + 3, r); }, y);
+  EXPECT_EQ(test::Rank(by_ends.leftCols<3>()), 3);
+  EXPECT_EQ(test::Rank(by_ends.rightCols<3>()), 3);
+}
+
+TEST(PoseMotion, PlanarResidualIsTheMotionLessWhatWasMeasured) {
+  const Pose2 from{{1, 2}, 3.0}, measured{{0.5, -0.1}, 0.2}, to = from * measured;  // the heading passes pi
+  const Eigen::Vector3d off(0.01, -0.02, 0.03);
+  const Eigen::Vector2d shifted = from * Eigen::Vector2d(measured.t_m + off.head<2>());
+  const double a[3] = {1, 2, 3.0}, b[3] = {shifted.x(), shifted.y(), to.yaw_rad + off.z()};
+  Eigen::Vector3d r;
+  const PlanarMotionResidual residual{measured, 2 * Eigen::Matrix3d::Identity()};
+  ASSERT_TRUE(residual(a, b, r.data()));
+  EXPECT_LT((r - 2 * off).norm(), 1e-9);
 }
 
 }  // namespace

@@ -59,6 +59,28 @@ TEST(SeedPlace, UndeviatedMajorityDecides) {
   }
 }
 
+// The correction is linear in what the walls measure. Here they are measured exactly, as planes of a place that is a little off.
+TEST(SeedPlace, CorrectsByWhatTheBuiltPlanesAreOffBy) {
+  const Eigen::Isometry3d off = Eigen::Translation3d(8e-4, -5e-4, 0) * Eigen::AngleAxisd(4e-4, Eigen::Vector3d::UnitZ());
+  constexpr double kBias_m = 6e-4;
+  Scene scene;
+  for (int i = 0; i < 12; ++i) {
+    const double angle = 0.5 * i;
+    scene.Add({3 + 4 * std::cos(2.1 * i), -2 + 5 * std::sin(1.3 * i)}, {std::cos(angle), std::sin(angle)}, 0, 0, {0, 0, 0}, 0);
+    const WallFrame& frame = scene.frames.back();
+    const Face face{frame.pivot, frame.normal, frame.normal, frame.pivot};
+    Plane built{frame.normal, -frame.normal.dot(frame.pivot)};
+    built.d -= kBias_m;  // nearer by the bias
+    const FaceDeviation deviation = CompareToPlan(face, built.Transformed(off));
+    scene.walls.back().deviation = {deviation.offset_m, deviation.yaw_rad};
+  }
+  const PlaceSeed seed = SeedPlace(scene.walls, scene.frames, Eigen::Isometry3d::Identity(), {});
+  const Eigen::Isometry3d left = seed.T_plan_map * off;
+  EXPECT_LT(left.translation().norm(), 0.02 * off.translation().norm());
+  EXPECT_LT((left.linear() - Eigen::Matrix3d::Identity()).norm(), 0.02 * 4e-4);
+  EXPECT_NEAR(seed.bias_m, kBias_m, 0.2 * kBias_m) << "which has a prior";
+}
+
 TEST(SeedPlace, KeepsTheGivenPlaceInATie) {
   Scene scene;  // two walls along x that disagree by 0.3 m: either may be the one that deviates
   scene.Add({0, 0}, {1, 0}, 0, 0, {0, 0, 0}, 0);

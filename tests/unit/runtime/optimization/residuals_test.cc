@@ -2,19 +2,18 @@
 
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
-#include <Eigen/LU>
+#include <array>
 #include <cmath>
-#include <functional>
-#include <unsupported/Eigen/AutoDiff>
 
 #include "tests/support/house.h"
+#include "tests/support/jacobian.h"
 #include "tests/support/synthetic_sgraph.h"
 
 namespace plumb::runtime {
 namespace {
 
-using Jet = Eigen::AutoDiffScalar<Eigen::VectorXd>;
+template <int N>
+using Vector = Eigen::Matrix<double, N, 1>;
 
 Eigen::Vector3d RandomPoint(test::Random& random, double size) {
   return {random.Uniform(-size, size), random.Uniform(-size, size), random.Uniform(-size, size)};
@@ -118,33 +117,8 @@ TEST(PlaneView, SmearBlursWhatItMovesAndTurnsOnly) {
   EXPECT_NEAR(turned.weight_v, sharp.weight_v, 1e-6 * sharp.weight_v);
 }
 
-// Jacobian by automatic differentiation against central differences, for any residual over a list of parameter blocks.
-template <int kResiduals, class Call>
-void ExpectJacobian(const Call& call, const Eigen::VectorXd& x) {
-  const auto value = [&](const Eigen::VectorXd& at) {
-    Eigen::Matrix<double, kResiduals, 1> r;
-    call(at.data(), r.data());
-    return r;
-  };
-  std::vector<Jet> jets;
-  for (Eigen::Index i = 0; i < x.size(); ++i) jets.emplace_back(x[i], x.size(), i);
-  std::vector<Jet> r(kResiduals);
-  call(jets.data(), r.data());
-  constexpr double h = 1e-6;
-  for (Eigen::Index i = 0; i < x.size(); ++i) {
-    Eigen::VectorXd lo = x, hi = x;
-    lo[i] -= h;
-    hi[i] += h;
-    const Eigen::Matrix<double, kResiduals, 1> numeric = (value(hi) - value(lo)) / (2 * h);
-    for (int k = 0; k < kResiduals; ++k) {
-      const double automatic = r[static_cast<size_t>(k)].derivatives().size() ? r[static_cast<size_t>(k)].derivatives()[i] : 0.0;
-      EXPECT_NEAR(automatic, numeric[k], 1e-4 * std::max(1.0, std::abs(numeric[k]))) << "residual " << k << " parameter " << i;
-    }
-  }
-}
-
-Eigen::VectorXd RandomPose(test::Random& random) {
-  Eigen::VectorXd pose(7);
+Vector<7> RandomPose(test::Random& random) {
+  Vector<7> pose;
   const Eigen::Quaterniond q = Eigen::Quaterniond(Eigen::AngleAxisd(random.Uniform(-2, 2), RandomPoint(random, 1).normalized()));
   pose << q.coeffs(), RandomPoint(random, 3);
   return pose;
@@ -162,34 +136,97 @@ struct RandomScene {
   Face face;
 };
 
-TEST(Residuals, JacobiansAgreeWithDifferences) {
+// A view of a plane tells three numbers of whatever it is a view of: an offset and two turns. Of a level's height and of the place, a
+// floor tells one number and the place's tilts are none of its parameters. A motion tells all six, of each of its ends.
+TEST(Residuals, HaveTheJacobiansOfDifferencesAndTheirRanks) {
   for (uint64_t seed = 1; seed <= 10; ++seed) {
     RandomScene s(seed);
     const WallViewResidual wall{s.view, s.face};
-    Eigen::VectorXd x(16);
+    Vector<16> x;
     x << RandomPose(s.random), RandomPoint(s.random, 5), s.random.Uniform(-3, 3), 0.2, 0.1, 0.02, 0.01, 0.015;
-    ExpectJacobian<3>([&](const auto* p, auto* r) { wall(p, p + 7, p + 11, p + 15, r); }, x);
+    const auto by_wall = test::CheckedJacobian<3, 16>([&](const auto* p, auto* r) { wall(p, p + 7, p + 11, p + 15, r); }, x);
+    EXPECT_EQ(test::Rank(by_wall.leftCols<7>() * test::PoseTangent(x.head<7>())), 3);
+    EXPECT_EQ(test::Rank(by_wall.middleCols<4>(7)), 2) << "position across it, yaw";
+    EXPECT_EQ(test::Rank(by_wall.middleCols<3>(11)), 3) << "offset, yaw, tilt";
+    EXPECT_EQ(test::Rank(by_wall.rightCols<2>()), 1) << "thickness and bias are one number to a single face";
 
     const LevelViewResidual level{s.view, 2.5, seed % 2 ? 1.0 : -1.0};
-    Eigen::VectorXd y(12);
+    Vector<12> y;
     y << RandomPose(s.random), RandomPoint(s.random, 5), 1.0, 0.01;
-    ExpectJacobian<3>([&](const auto* p, auto* r) { level(p, p + 7, p + 11, r); }, y);
+    const auto by_level = test::CheckedJacobian<3, 12>([&](const auto* p, auto* r) { level(p, p + 7, p + 11, r); }, y);
+    EXPECT_EQ(test::Rank(by_level.leftCols<7>() * test::PoseTangent(y.head<7>())), 3);
+    EXPECT_EQ(test::Rank(by_level.rightCols<5>()), 1) << "the place's height and the level's are one number to it";
 
     const FreeViewResidual free{s.view};
-    Eigen::VectorXd z(11);
+    Vector<11> z;
     z << RandomPose(s.random), RandomPoint(s.random, 1).normalized(), 2.0;
-    ExpectJacobian<3>([&](const auto* p, auto* r) { free(p, p + 7, r); }, z);
+    const auto by_plane = test::CheckedJacobian<3, 11>([&](const auto* p, auto* r) { free(p, p + 7, r); }, z);
+    EXPECT_EQ(test::Rank(by_plane.leftCols<7>() * test::PoseTangent(z.head<7>())), 3);
+    EXPECT_EQ(test::Rank(by_plane.rightCols<4>()), 3);
 
     const OdometryResidual odometry{
         Eigen::Translation3d(RandomPoint(s.random, 1)) * Eigen::AngleAxisd(0.3, RandomPoint(s.random, 1).normalized()), 0.01, 0.002};
-    Eigen::VectorXd w(14);
+    Vector<14> w;
     w << RandomPose(s.random), RandomPose(s.random);
-    ExpectJacobian<6>([&](const auto* p, auto* r) { odometry(p, p + 7, r); }, w);
+    const auto by_motion = test::CheckedJacobian<6, 14>([&](const auto* p, auto* r) { odometry(p, p + 7, r); }, w);
+    EXPECT_EQ(test::Rank(by_motion.leftCols<7>() * test::PoseTangent(w.head<7>())), 6);
+    EXPECT_EQ(test::Rank(by_motion.rightCols<7>() * test::PoseTangent(w.tail<7>())), 6);
 
     const AnchorResidual anchor{Eigen::Isometry3d(Eigen::Translation3d(1, 2, 3) * Eigen::AngleAxisd(0.2, Eigen::Vector3d::UnitX())), 0.1,
                                 0.1, 0.2};
-    ExpectJacobian<6>([&](const auto* p, auto* r) { anchor(p, r); }, RandomPose(s.random));
+    const Vector<7> pose = RandomPose(s.random);
+    const auto by_pose = test::CheckedJacobian<6, 7>([&](const auto* p, auto* r) { anchor(p, r); }, pose);
+    EXPECT_EQ(test::Rank(by_pose * test::PoseTangent(pose)), 6);
+
+    const std::array<double, 4> weight{100, 0, 2, 30};
+    const PriorResidual<4> prior{{0.1, 0.2, 0.3, 0.4}, &weight};
+    const auto by_block = test::CheckedJacobian<4, 4>([&](const auto* p, auto* r) { prior(p, r); }, Vector<4>::Random());
+    EXPECT_EQ(test::Rank(by_block), 3) << "a weight of zero is no prior";
   }
+}
+
+// What moves towards the side that a plane faces lowers the points' distances to it.
+TEST(Residuals, HaveTheSignOfMeasuredMinusModelled) {
+  RandomScene s(1);
+  const Vector<7> at_origin = (Vector<7>() << 0, 0, 0, 1, 0, 0, 0).finished();
+  const double no_place[4] = {}, no_bias = 0, bias = 0.01, no_deviation[4] = {}, moved[4] = {s.face.side() * 0.01, 0, 0, 0},
+               thicker[4] = {0, 0, 0, 0.02};
+  const double weight = s.view.weight_center;
+  Eigen::Vector3d planned, r;
+  const WallViewResidual wall{s.view, s.face};
+  wall(at_origin.data(), no_place, no_deviation, &no_bias, planned.data());
+  wall(at_origin.data(), no_place, moved, &no_bias, r.data());
+  EXPECT_NEAR(r[0] - planned[0], -0.01 * weight, 1e-6 * weight) << "the wall nearer to the robot";
+  wall(at_origin.data(), no_place, thicker, &no_bias, r.data());
+  EXPECT_NEAR(r[0] - planned[0], -0.01 * weight, 1e-6 * weight) << "either face by half of what it is thicker";
+  wall(at_origin.data(), no_place, no_deviation, &bias, r.data());
+  EXPECT_NEAR(r[0] - planned[0], -0.01 * weight, 1e-6 * weight) << "ranges too short look like a nearer wall";
+  const double place[4] = {0.01 * s.face.normal.x(), 0.01 * s.face.normal.y(), 0, 0};
+  wall(at_origin.data(), place, no_deviation, &no_bias, r.data());
+  EXPECT_NEAR(r[0] - planned[0], 0.01 * weight, 1e-6 * weight) << "the robot farther from the wall";
+
+  const double level = 0, raised = 0.01, lifted[4] = {0, 0, 0.01, 0};
+  for (const double up : {1.0, -1.0}) {
+    const LevelViewResidual view{s.view, 2.5, up};
+    view(at_origin.data(), no_place, &level, planned.data());
+    view(at_origin.data(), no_place, &raised, r.data());
+    EXPECT_NEAR(r[0] - planned[0], -up * 0.01 * weight, 1e-6 * weight) << "nearer as a floor, farther as a ceiling";
+    view(at_origin.data(), lifted, &raised, r.data());
+    EXPECT_NEAR((r - planned).norm(), 0, 1e-9 * weight) << "the robot lifted with it";
+  }
+
+  const Vector<7> ahead = (Vector<7>() << 0, 0, std::sin(0.01), std::cos(0.01), 1.02, 0, 0).finished();
+  Vector<6> e;
+  const OdometryResidual odometry{Eigen::Isometry3d(Eigen::Translation3d(1, 0, 0)), 0.01, 0.002};
+  odometry(at_origin.data(), ahead.data(), e.data());
+  EXPECT_LT((e - (Vector<6>() << 2, 0, 0, 0, 0, 10).finished()).norm(), 1e-3) << "farther and more to the left than measured";
+  const AnchorResidual anchor{Eigen::Isometry3d::Identity(), 0.01, 0.002, 0.2};
+  anchor(ahead.data(), e.data());
+  EXPECT_LT((e - (Vector<6>() << 102, 0, 0, 0, 0, 10).finished()).norm(), 1e-3);
+  const std::array<double, 1> prior_weight{100};
+  double p = 0;
+  PriorResidual<1>{{0.5}, &prior_weight}(&raised, &p);
+  EXPECT_NEAR(p, -49, 1e-12);
 }
 
 TEST(LevelStepResidual, ComparesMotionsOfTheLevelledFrames) {
@@ -198,11 +235,11 @@ TEST(LevelStepResidual, ComparesMotionsOfTheLevelledFrames) {
   LevelStepResidual step{Between(a.pose, b.pose), Eigen::Vector3d(1 / 0.01, 1 / 0.02, 1 / 0.005).asDiagonal(),
                          Eigen::Quaterniond(level_a).conjugate(), Eigen::Quaterniond(level_b).conjugate()};
   const auto block = [](const LeveledPose& pose) {
-    Eigen::VectorXd x(7);
+    Vector<7> x;
     x << Eigen::Quaterniond(pose.Lifted().linear()).coeffs(), pose.Lifted().translation();
     return x;
   };
-  Eigen::VectorXd x(14);
+  Vector<14> x;
   x << block(a), block(b);
   Eigen::Vector3d r;
   step(x.data(), x.data() + 7, r.data());
@@ -216,7 +253,9 @@ TEST(LevelStepResidual, ComparesMotionsOfTheLevelledFrames) {
   x.tail<7>().head<4>() *= -1;  // the same orientation
   step(x.data(), x.data() + 7, r.data());
   EXPECT_NEAR(r.z(), 2, 1e-3);
-  ExpectJacobian<3>([&](const auto* p, auto* out) { step(p, p + 7, out); }, x);
+  const auto J = test::CheckedJacobian<3, 14>([&](const auto* p, auto* out) { step(p, p + 7, out); }, x);
+  EXPECT_EQ(test::Rank(J.leftCols<7>() * test::PoseTangent(x.head<7>())), 3);
+  EXPECT_EQ(test::Rank(J.rightCols<7>() * test::PoseTangent(x.tail<7>())), 3);
 }
 
 TEST(Residuals, AreZeroAtTheTruth) {
@@ -228,7 +267,7 @@ TEST(Residuals, AreZeroAtTheTruth) {
     Eigen::Isometry3d T_plan_map = Eigen::Isometry3d::Identity();
     T_plan_map.linear() = Eigen::AngleAxisd(0.7, Eigen::Vector3d::UnitZ()).toRotationMatrix();
     T_plan_map.translation() = t;
-    const Eigen::VectorXd pose = RandomPose(s.random);
+    const Vector<7> pose = RandomPose(s.random);
     Eigen::Isometry3d T_map_kf = Eigen::Isometry3d::Identity();
     T_map_kf.linear() = Eigen::Quaterniond(pose.data()).toRotationMatrix();
     T_map_kf.translation() = pose.tail<3>();
@@ -273,13 +312,8 @@ TEST(Deviation, TwoParametersAndTiltHaveNoFreeDirectionWhileSixHave) {
     BuiltPlane(s.face, hi, &b.n, &b.d);
     own.col(i) << (b.n - a.n) / 2e-5, (b.d - a.d) / 2e-5;
   }
-  const auto rank = [](const Eigen::MatrixXd& m) {
-    Eigen::FullPivLU<Eigen::MatrixXd> lu(m);
-    lu.setThreshold(1e-6);
-    return lu.rank();
-  };
-  EXPECT_EQ(rank(six), 3);
-  EXPECT_EQ(rank(own), 3);
+  EXPECT_EQ(test::Rank(six), 3);
+  EXPECT_EQ(test::Rank(own), 3);
 }
 
 // Why deviations need a prior: one that appears in its own factor only takes up all that the factor says, whatever the factor's weight.
